@@ -1,0 +1,1 @@
+//! The diagnostic room (to be filled).

@@ -1,0 +1,2 @@
+//! The program `texcrd`.
+fn main() {}

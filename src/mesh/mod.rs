@@ -1,0 +1,1 @@
+//! The mesh room (to be filled).

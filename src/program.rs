@@ -1,0 +1,1 @@
+//! The program room (to be filled).

@@ -1,0 +1,1 @@
+//! The raster room (to be filled).

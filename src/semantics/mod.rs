@@ -1,0 +1,1 @@
+//! The semantics room (to be filled).

@@ -1,0 +1,1 @@
+//! The texture room (to be filled).

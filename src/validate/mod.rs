@@ -1,0 +1,1 @@
+//! The validate room (to be filled).
