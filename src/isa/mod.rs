@@ -1,1 +1,23 @@
-//! The isa room (to be filled).
+//! The instruction set as data: versions, register files, opcodes, modifiers, masks and limits.
+//!
+//! Everything that Direct3D 8 says about the *form* of a shader is a row of a table in this room: one row a
+//! version, a register file, an opcode, a source modifier. The parser, the validator, the lowering, the encoder
+//! and `explain` read these rows; none of them repeats one. What an instruction *computes* is in
+//! [`crate::semantics`].
+//!
+//! Adding an instruction is one row in [`opcode`], one meaning, one WGSL form and one test case.
+
+pub mod modifier;
+pub mod opcode;
+pub mod operand;
+pub mod register;
+pub mod version;
+
+#[cfg(test)]
+mod tests;
+
+pub use modifier::{ResultModifier, SourceModifier};
+pub use opcode::{Class, Form, Opcode, OpcodeRow};
+pub use operand::{MaskSet, Swizzle, WriteMask};
+pub use register::{FileSet, RegisterFile};
+pub use version::{ShaderKind, Version, VersionSet};
