@@ -1,0 +1,55 @@
+//! What a shader is run with, beside its inputs.
+
+use crate::isa::register::VERTEX_CONSTANTS;
+use crate::isa::{RegisterFile, ShaderKind};
+use crate::kernel::Kernel;
+use crate::semantics::{self, BumpState};
+use crate::texture::{Sampler, Texture};
+
+/// How many texture stages there are.
+pub const STAGES: usize = 8;
+
+/// The textures, their states and the constants that are set while a shader runs.
+#[derive(Clone, Debug, Default)]
+pub struct Environment<'a> {
+    /// The constants as [`bind_constants`] made them. Numbers beyond the end read (0, 0, 0, 0).
+    pub constants: Vec<[f32; 4]>,
+    /// The texture stages.
+    pub stages: [Stage<'a>; STAGES],
+}
+
+/// One texture stage.
+#[derive(Clone, Debug, Default)]
+pub struct Stage<'a> {
+    /// The texture; a stage without one samples opaque black.
+    pub texture: Option<&'a Texture>,
+    /// How it is sampled.
+    pub sampler: Sampler,
+    /// The bump mapping states.
+    pub bump: BumpState,
+}
+
+/// The constant registers of a kernel when it runs.
+///
+/// Direct3D 8 loads what a shader defines itself when the shader is set, and what a program sets comes after that:
+/// `set` replaces definitions. What nobody sets is (0, 0, 0, 0). Pixel shader constants are clamped to −1…1.
+/// Numbers in `set` beyond the registers there are have no effect.
+pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]> {
+    let kind = kernel.version.kind();
+    let count = match kind {
+        ShaderKind::Vertex => {
+            (kernel.definitions.iter().map(|(index, _)| index + 1)).fold(VERTEX_CONSTANTS, u32::max)
+        }
+        ShaderKind::Pixel => RegisterFile::Const.count(kernel.version),
+    };
+    let mut constants = vec![[0.0; 4]; count as usize];
+    for (index, value) in kernel.definitions.iter().chain(set) {
+        if let Some(constant) = constants.get_mut(*index as usize) {
+            *constant = match kind {
+                ShaderKind::Vertex => *value,
+                ShaderKind::Pixel => value.map(semantics::constant),
+            };
+        }
+    }
+    constants
+}

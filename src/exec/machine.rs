@@ -1,0 +1,336 @@
+//! Registers and the step.
+
+use super::environment::{Environment, STAGES};
+use crate::isa::{SourceModifier, Swizzle, WriteMask};
+use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::semantics::{self, Finish};
+use crate::texture::sample_quads;
+
+/// A register of `N` lanes, component by component.
+pub type Lanes<const N: usize> = [[f32; N]; 4];
+
+/// Sees what a run writes.
+pub trait Observer<const N: usize> {
+    /// A step has been written. Steps that are held are told when they are written, in their order.
+    ///
+    /// `step` is its number in the kernel, `before` and `after` the whole destination register.
+    fn wrote(&mut self, step: usize, before: &Lanes<N>, after: &Lanes<N>);
+
+    /// `texkill` has looked at the pixels; `killed` is true for those that are discarded by now.
+    fn killed(&mut self, step: usize, killed: &[bool; N]);
+}
+
+/// Sees nothing, costs nothing.
+struct Unobserved;
+
+impl<const N: usize> Observer<N> for Unobserved {
+    fn wrote(&mut self, _: usize, _: &Lanes<N>, _: &Lanes<N>) {}
+    fn killed(&mut self, _: usize, _: &[bool; N]) {}
+}
+
+/// At most this many steps of a group wait for its end: a matrix macro has four rows.
+const MOST_HELD: usize = 4;
+
+/// The registers of `N` invocations.
+#[derive(Clone, Debug)]
+pub struct Machine<const N: usize> {
+    registers: Box<[Lanes<N>]>,
+    killed: [bool; N],
+}
+
+impl<const N: usize> Default for Machine<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const N: usize> Machine<N> {
+    /// A machine with all registers zero.
+    pub fn new() -> Self {
+        Self {
+            registers: vec![[[0.0; N]; 4]; SLOT_COUNT].into_boxed_slice(),
+            killed: [false; N],
+        }
+    }
+
+    /// The content of a register.
+    #[inline]
+    pub fn register(&self, slot: Slot) -> &Lanes<N> {
+        &self.registers[slot.index()]
+    }
+
+    /// The register, to load inputs into it.
+    #[inline]
+    pub fn register_mut(&mut self, slot: Slot) -> &mut Lanes<N> {
+        &mut self.registers[slot.index()]
+    }
+
+    /// The content of a register in one lane; zero for lanes that do not exist.
+    pub fn lane(&self, slot: Slot, lane: usize) -> [f32; 4] {
+        self.register(slot)
+            .map(|component| component.get(lane).copied().unwrap_or(0.0))
+    }
+
+    /// Loads the same value into a register of every lane.
+    pub fn load(&mut self, slot: Slot, value: [f32; 4]) {
+        *self.register_mut(slot) = value.map(|component| [component; N]);
+    }
+
+    /// The lanes that `texkill` discarded in the last run.
+    pub fn killed(&self) -> &[bool; N] {
+        &self.killed
+    }
+
+    /// Runs a kernel. Inputs are what the registers hold; everything else that the kernel expects is loaded first.
+    #[inline]
+    pub fn run(&mut self, kernel: &Kernel, environment: &Environment<'_>) {
+        self.run_observed(kernel, environment, usize::MAX, &mut Unobserved);
+    }
+
+    /// Runs the steps of the first `instructions` instructions and tells the observer of every write.
+    pub fn run_observed(
+        &mut self,
+        kernel: &Kernel,
+        environment: &Environment<'_>,
+        instructions: usize,
+        observer: &mut impl Observer<N>,
+    ) {
+        self.killed = [false; N];
+        for (slot, value) in &kernel.presets {
+            self.load(*slot, *value);
+        }
+        let mut held: [(usize, Lanes<N>); MOST_HELD] = [(0, [[0.0; N]; 4]); MOST_HELD];
+        let mut waiting = 0;
+        for (number, step) in kernel.steps.iter().enumerate() {
+            if step.origin >= instructions {
+                break;
+            }
+            if step.op == Op::Kill {
+                self.kill(step, environment);
+                observer.killed(number, &self.killed);
+                continue;
+            }
+            let result = self.compute(step, environment);
+            if step.held && waiting < MOST_HELD {
+                held[waiting] = (number, result);
+                waiting += 1;
+                continue;
+            }
+            for (number, result) in &held[..waiting] {
+                self.commit(*number, &kernel.steps[*number], result, observer);
+            }
+            waiting = 0;
+            self.commit(number, step, &result, observer);
+        }
+        // A run that stops inside a group still writes what was computed.
+        for (number, result) in &held[..waiting] {
+            self.commit(*number, &kernel.steps[*number], result, observer);
+        }
+    }
+
+    #[inline]
+    fn commit(
+        &mut self,
+        number: usize,
+        step: &Step,
+        result: &Lanes<N>,
+        observer: &mut impl Observer<N>,
+    ) {
+        let register = &mut self.registers[step.destination.index()];
+        let before = *register;
+        let finish = Finish::new(step.result);
+        for c in step.mask.components() {
+            for lane in 0..N {
+                register[c][lane] = finish.apply(result[c][lane]);
+            }
+        }
+        observer.wrote(number, &before, register);
+    }
+
+    fn kill(&mut self, step: &Step, environment: &Environment<'_>) {
+        let [s0, ..] = self.sources(step, environment);
+        for lane in 0..N {
+            // −0 and NaN do not kill.
+            let negative = s0[..3].iter().any(|component| component[lane] < 0.0);
+            self.killed[lane] |= negative;
+        }
+    }
+
+    /// What an operand reads into the slots of the mask.
+    #[inline]
+    fn fetch(
+        &self,
+        operand: &Operand,
+        slots: WriteMask,
+        environment: &Environment<'_>,
+    ) -> Lanes<N> {
+        let constant = |index: usize| {
+            environment
+                .constants
+                .get(index)
+                .copied()
+                .unwrap_or([0.0; 4])
+        };
+        let swizzle = operand.swizzle;
+        let mut value = match operand.place {
+            Place::Slot(slot) => swizzled(self.register(slot), swizzle, slots),
+            Place::Constant(index) => {
+                let constant = constant(index as usize).map(|component| [component; N]);
+                swizzled(&constant, swizzle, slots)
+            }
+            Place::Relative(offset) => {
+                let mut gathered = [[0.0; N]; 4];
+                for lane in 0..N {
+                    let a0 = self.register(Slot::ADDRESS)[0][lane] as i64;
+                    let index = usize::try_from(a0 + i64::from(offset)).unwrap_or(usize::MAX);
+                    let value = constant(index);
+                    for c in 0..4 {
+                        gathered[c][lane] = value[c];
+                    }
+                }
+                swizzled(&gathered, swizzle, slots)
+            }
+            Place::Literal(number) => [[number; N]; 4],
+        };
+        if operand.modifier != SourceModifier::None {
+            for slot in slots.components() {
+                for number in &mut value[slot] {
+                    *number = semantics::modify(operand.modifier, *number);
+                }
+            }
+        }
+        value
+    }
+
+    #[inline]
+    fn sources(&self, step: &Step, environment: &Environment<'_>) -> [Lanes<N>; 3] {
+        let mut sources = [[[0.0; N]; 4]; 3];
+        for (i, (source, operand)) in sources.iter_mut().zip(&step.sources).enumerate() {
+            *source = self.fetch(operand, step.op.slots_read(i, step.mask), environment);
+        }
+        sources
+    }
+
+    /// The result of a step before it is finished. Components outside of the mask may hold anything.
+    fn compute(&self, step: &Step, environment: &Environment<'_>) -> Lanes<N> {
+        let mask = step.mask;
+        let [a, b, c] = &self.sources(step, environment);
+        match step.op {
+            Op::Mov => *a,
+            Op::Add => each(mask, |k, l| a[k][l] + b[k][l]),
+            Op::Sub => each(mask, |k, l| a[k][l] - b[k][l]),
+            Op::Mul => each(mask, |k, l| semantics::mul(a[k][l], b[k][l])),
+            Op::Mad => each(mask, |k, l| semantics::mad(a[k][l], b[k][l], c[k][l])),
+            Op::Lrp => each(mask, |k, l| semantics::lrp(a[k][l], b[k][l], c[k][l])),
+            Op::Min => each(mask, |k, l| semantics::min(a[k][l], b[k][l])),
+            Op::Max => each(mask, |k, l| semantics::max(a[k][l], b[k][l])),
+            Op::Slt => each(mask, |k, l| semantics::slt(a[k][l], b[k][l])),
+            Op::Sge => each(mask, |k, l| semantics::sge(a[k][l], b[k][l])),
+            Op::Frc => each(mask, |k, l| semantics::frc(a[k][l])),
+            Op::Floor => each(mask, |k, l| semantics::address(a[k][l])),
+            Op::Cnd => each(mask, |k, l| semantics::cnd(a[k][l], b[k][l], c[k][l])),
+            Op::Cmp => each(mask, |k, l| semantics::cmp(a[k][l], b[k][l], c[k][l])),
+            Op::Dp3 => replicate(|l| semantics::dp3(xyz(a, l), xyz(b, l))),
+            Op::Dp4 => replicate(|l| semantics::dp4(xyzw(a, l), xyzw(b, l))),
+            Op::Rcp => replicate(|l| semantics::rcp(a[0][l])),
+            Op::Rsq => replicate(|l| semantics::rsq(a[0][l])),
+            Op::Exp => replicate(|l| semantics::exp(a[0][l])),
+            Op::Log => replicate(|l| semantics::log(a[0][l])),
+            Op::ExpP => vector(|l| semantics::expp(a[0][l])),
+            Op::LogP => vector(|l| semantics::logp(a[0][l])),
+            Op::Lit => vector(|l| semantics::lit(xyzw(a, l))),
+            Op::Dst => vector(|l| semantics::dst(xyzw(a, l), xyzw(b, l))),
+            Op::DivideZ => vector(|l| divided(xyzw(a, l), a[2][l])),
+            Op::DivideW => vector(|l| divided(xyzw(a, l), a[3][l])),
+            Op::Bump(stage) => {
+                let state = &environment.stages[usize::from(stage) % STAGES].bump;
+                vector(|l| {
+                    let [x, y] = semantics::bump([a[0][l], a[1][l]], [b[0][l], b[1][l]], state);
+                    [x, y, a[2][l], a[3][l]]
+                })
+            }
+            Op::Luminance(stage) => {
+                let state = &environment.stages[usize::from(stage) % STAGES].bump;
+                each(mask, |k, l| semantics::luminance(a[k][l], b[2][l], state))
+            }
+            Op::Reflect => vector(|l| {
+                let [x, y, z] = semantics::reflect(xyz(a, l), xyz(b, l));
+                [x, y, z, 0.0]
+            }),
+            Op::Sample(stage) => {
+                let stage = &environment.stages[usize::from(stage) % STAGES];
+                let mut texels = [[0.0; N]; 4];
+                let coordinates = [a[0], a[1], a[2]];
+                sample_quads(stage.texture, &stage.sampler, &coordinates, &mut texels);
+                texels
+            }
+            Op::Depth => vector(|l| [semantics::depth(a[0][l], a[1][l]), 0.0, 0.0, 0.0]),
+            Op::Kill => [[0.0; N]; 4],
+        }
+    }
+}
+
+#[inline(always)]
+fn swizzled<const N: usize>(register: &Lanes<N>, swizzle: Swizzle, slots: WriteMask) -> Lanes<N> {
+    let mut value = [[0.0; N]; 4];
+    for slot in slots.components() {
+        value[slot] = register[swizzle.slot(slot)];
+    }
+    value
+}
+
+/// Component by component.
+#[inline(always)]
+fn each<const N: usize>(mask: WriteMask, f: impl Fn(usize, usize) -> f32) -> Lanes<N> {
+    let mut result = [[0.0; N]; 4];
+    for component in mask.components() {
+        for lane in 0..N {
+            result[component][lane] = f(component, lane);
+        }
+    }
+    result
+}
+
+/// One number for all components.
+#[inline(always)]
+fn replicate<const N: usize>(f: impl Fn(usize) -> f32) -> Lanes<N> {
+    let mut number = [0.0; N];
+    for (lane, number) in number.iter_mut().enumerate() {
+        *number = f(lane);
+    }
+    [number; 4]
+}
+
+/// All components at once.
+#[inline(always)]
+fn vector<const N: usize>(f: impl Fn(usize) -> [f32; 4]) -> Lanes<N> {
+    let mut result = [[0.0; N]; 4];
+    for lane in 0..N {
+        let value = f(lane);
+        for c in 0..4 {
+            result[c][lane] = value[c];
+        }
+    }
+    result
+}
+
+#[inline(always)]
+fn xyz<const N: usize>(register: &Lanes<N>, lane: usize) -> [f32; 3] {
+    [register[0][lane], register[1][lane], register[2][lane]]
+}
+
+#[inline(always)]
+fn xyzw<const N: usize>(register: &Lanes<N>, lane: usize) -> [f32; 4] {
+    register.map(|component| component[lane])
+}
+
+/// Coordinates after a divide modifier. Only the first two components are defined.
+#[inline(always)]
+fn divided([x, y, ..]: [f32; 4], divisor: f32) -> [f32; 4] {
+    [
+        semantics::divide(x, divisor),
+        semantics::divide(y, divisor),
+        0.0,
+        0.0,
+    ]
+}

@@ -1,0 +1,121 @@
+//! Operations that look at several components at once.
+
+use super::scalar::{BIG, exp, log, mul, partial_precision};
+
+/// s0.x·s1.x + s0.y·s1.y + s0.z·s1.z, summed from left to right.
+#[inline(always)]
+pub fn dp3(a: [f32; 3], b: [f32; 3]) -> f32 {
+    mul(a[0], b[0]) + mul(a[1], b[1]) + mul(a[2], b[2])
+}
+
+/// [`dp3`] plus s0.w·s1.w.
+#[inline(always)]
+pub fn dp4(a: [f32; 4], b: [f32; 4]) -> f32 {
+    mul(a[0], b[0]) + mul(a[1], b[1]) + mul(a[2], b[2]) + mul(a[3], b[3])
+}
+
+/// (1, s0.y·s1.y, s0.z, s1.w): from (–, d², d², –) and (–, 1/d, –, 1/d) the attenuation terms (1, d, d², 1/d).
+#[inline(always)]
+pub fn dst(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+    [1.0, mul(a[1], b[1]), a[2], b[3]]
+}
+
+/// The bound of the exponent of [`lit`]: 128 − 1/256.
+const LIT_POWER: f32 = 127.996_09;
+
+/// Diffuse and specular coefficients: (1, x, y^w, 1) for positive x = N·L, y = N·H and the power w, clamped to
+/// ±127.9961. y is 0 unless x is positive, z unless both are; a power that is NaN counts as 0.
+#[inline(always)]
+pub fn lit(a: [f32; 4]) -> [f32; 4] {
+    let [x, y, _, w] = a;
+    let power = if w.is_nan() {
+        0.0
+    } else {
+        w.clamp(-LIT_POWER, LIT_POWER)
+    };
+    let lit = x > 0.0;
+    let specular = exp(mul(power, log(y)));
+    [
+        1.0,
+        if lit { x } else { 0.0 },
+        if lit && y > 0.0 { specular } else { 0.0 },
+        1.0,
+    ]
+}
+
+/// The partial results of `expp`: (2^⌊x⌋, x − ⌊x⌋, 2^x in partial precision, 1).
+#[inline(always)]
+pub fn expp(x: f32) -> [f32; 4] {
+    let whole = x.floor();
+    let fraction = if x.is_infinite() { 0.0 } else { x - whole };
+    [exp(whole), fraction, partial_precision(exp(x)), 1.0]
+}
+
+/// The partial results of `logp` for v = |x|: (exponent, mantissa in 1…2, log₂ v in partial precision, 1).
+///
+/// Zero (and denormal) v: (−BIG, 1, −BIG, 1). Infinite v: (∞, 1, ∞, 1).
+#[inline(always)]
+pub fn logp(x: f32) -> [f32; 4] {
+    let v = x.abs();
+    if v.is_nan() {
+        return [v, v, v, 1.0];
+    }
+    if v < f32::MIN_POSITIVE {
+        return [-BIG, 1.0, -BIG, 1.0];
+    }
+    if v.is_infinite() {
+        return [v, 1.0, v, 1.0];
+    }
+    let bits = v.to_bits();
+    let exponent = (bits >> 23) as i32 - 127;
+    let mantissa = f32::from_bits((bits & 0x007F_FFFF) | 0x3F80_0000);
+    [exponent as f32, mantissa, partial_precision(log(v)), 1.0]
+}
+
+/// The vector `e` mirrored at the normal `n`, which need not have unit length: 2·(n·e)/(n·n)·n − e; −e where n is
+/// zero.
+#[inline(always)]
+pub fn reflect(n: [f32; 3], e: [f32; 3]) -> [f32; 3] {
+    let square = dp3(n, n);
+    let scale = if square == 0.0 {
+        0.0
+    } else {
+        2.0 * dp3(n, e) / square
+    };
+    [
+        mul(scale, n[0]) - e[0],
+        mul(scale, n[1]) - e[1],
+        mul(scale, n[2]) - e[2],
+    ]
+}
+
+/// The states of one texture stage that bump mapping reads. The default is all zero, as in Direct3D 8.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BumpState {
+    /// `D3DTSS_BUMPENVMAT00`, `01`, `10`, `11`: the row vector (du, dv) is multiplied from the left, so that `01`
+    /// takes du into v′.
+    pub matrix: [f32; 4],
+    /// `D3DTSS_BUMPENVLSCALE`
+    pub luminance_scale: f32,
+    /// `D3DTSS_BUMPENVLOFFSET`
+    pub luminance_offset: f32,
+}
+
+/// s0.xy + (du, dv) · bump matrix, with (du, dv) = s1.xy.
+#[inline(always)]
+pub fn bump(s0: [f32; 2], s1: [f32; 2], state: &BumpState) -> [f32; 2] {
+    let [m00, m01, m10, m11] = state.matrix;
+    [
+        s0[0] + (mul(m00, s1[0]) + mul(m10, s1[1])),
+        s0[1] + (mul(m01, s1[0]) + mul(m11, s1[1])),
+    ]
+}
+
+/// s0 · (luminance · scale + offset): what `texbeml` does to every component of its sample.
+#[inline(always)]
+pub fn luminance(s0: f32, luminance: f32, state: &BumpState) -> f32 {
+    mul(
+        s0,
+        mul(luminance, state.luminance_scale) + state.luminance_offset,
+    )
+}
