@@ -6,6 +6,7 @@ pub mod diagnostic;
 pub mod exec;
 pub mod isa;
 pub mod kernel;
+pub mod listing;
 pub mod mesh;
 pub mod policy;
 pub mod program;

@@ -1,2 +1,9 @@
-//! The program `texcrd`.
-fn main() {}
+//! The program `texcrd`: runs, checks and steps shader listings of Direct3D 8.
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}

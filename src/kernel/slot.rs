@@ -109,6 +109,12 @@ impl Slot {
         }
     }
 
+    /// Whether the slot has no name in listings: it carries something between the steps of one instruction, or is
+    /// [`Slot::DEPTH`].
+    pub fn is_internal(self) -> bool {
+        self.0 >= ROW
+    }
+
     /// The name under which a person knows the slot in a shader of this kind.
     pub fn name(self, kind: ShaderKind) -> String {
         let files = [

@@ -1,0 +1,110 @@
+//! The command line: one file a command, thin.
+//!
+//! Results go to standard output, talk to standard error. Exit status: 0 done; 1 the input is wrong or a check
+//! failed; 2 usage or input and output.
+
+mod check;
+mod diagnostics;
+mod eval;
+mod files;
+mod run;
+mod show;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use std::fmt;
+use std::process::ExitCode;
+use texcrd::policy::Dialect;
+
+/// Runs and checks the shader assembly of Direct3D 8: vs.1.0, vs.1.1 and ps.1.0 to ps.1.4.
+#[derive(Parser)]
+#[command(version, propagate_version = true, arg_required_else_help = true)]
+#[command(after_help = "\
+Examples:
+  texcrd run asm/stained_glass/scene.toml -o stained_glass.png
+  texcrd check --stats shader.psh
+  texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
+
+`-` is standard input. Exit status: 0 done, 1 the input is wrong, 2 usage or I/O.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::Arguments),
+    Eval(eval::Arguments),
+    Run(run::Arguments),
+}
+
+/// How results are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// For programs.
+    Json,
+}
+
+/// A command ends without having done what it was asked for.
+enum Failure {
+    /// The input is wrong; what is wrong has been said already.
+    Rejected,
+    /// The input is wrong for this reason.
+    Input(String),
+    /// A file could not be read or written, or the arguments do not fit together.
+    Io(String),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Rejected => Ok(()),
+            Failure::Input(message) | Failure::Io(message) => f.write_str(message),
+        }
+    }
+}
+
+type Outcome = Result<(), Failure>;
+
+/// Parses the arguments and runs the command.
+pub(crate) fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Eval(arguments) => eval::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments),
+    };
+    let Err(failure) = outcome else {
+        return ExitCode::SUCCESS;
+    };
+    let message = failure.to_string();
+    if !message.is_empty() {
+        anstream::eprintln!("error: {message}");
+    }
+    match failure {
+        Failure::Rejected | Failure::Input(_) => ExitCode::from(1),
+        Failure::Io(_) => ExitCode::from(2),
+    }
+}
+
+/// The value parser of `--dialect`.
+fn dialect(text: &str) -> Result<Dialect, String> {
+    text.parse().map_err(|e| format!("{e}"))
+}
+
+/// Writes a result to standard output. A reader that has gone away is no fault of ours.
+fn print(text: &str) -> Outcome {
+    use std::io::Write;
+    match anstream::stdout().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::Io(format!("standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints a JSON value on one line.
+fn print_json(value: &serde_json::Value) -> Outcome {
+    print(&format!("{value}\n"))
+}
