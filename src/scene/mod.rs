@@ -1,1 +1,3 @@
-//! The scene room (to be filled).
+//! The scene room: so far the texture generators.
+
+pub mod generate;

@@ -1,0 +1,573 @@
+//! Sampling: level of detail, address modes, filters.
+//!
+//! The order of the arithmetic is fixed, so that results are the same everywhere: `lerp(a, b, f) = a + f·(b − a)`,
+//! along x first, then y, then z, then between mip levels. Four-byte texels are filtered as codes 0 to 255 and divided
+//! by 255 once at the end.
+//!
+//! A sample goes through three steps, each used by every way to sample: [`Choice`] (filter and levels from λ),
+//! [`Position`] (face and coordinate from the vector), [`Texel taps`](Taps) (which texels of a level, how much of each).
+
+#[cfg(test)]
+mod tests;
+
+use super::cube::{AcrossEdge, across_edge, direction_to_face, project_onto};
+use super::storage::{FloatStore, Level, PackedStore, Store, Texels};
+use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind};
+
+/// What a stage without a texture reads.
+const UNBOUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
+
+/// λ of a lane that has no neighbours: magnified, however large the bias.
+const NO_DERIVATIVES: f32 = f32::NEG_INFINITY;
+
+/// A coordinate that arithmetic can be done with: NaN is 0, infinities are the largest finite numbers.
+#[inline(always)]
+pub(super) fn finite(value: f32) -> f32 {
+    if value.is_nan() {
+        0.0
+    } else {
+        value.clamp(f32::MIN, f32::MAX)
+    }
+}
+
+#[inline(always)]
+fn lerp(a: [f32; 4], b: [f32; 4], f: f32) -> [f32; 4] {
+    std::array::from_fn(|channel| a[channel] + f * (b[channel] - a[channel]))
+}
+
+/// Filter and mip levels, as λ decides them for a quad.
+#[derive(Clone, Copy)]
+struct Choice {
+    filter: Filter,
+    first: usize,
+    second: usize,
+    /// Share of the second level; 0 when only the first is read.
+    blend: f32,
+}
+
+impl Choice {
+    fn new(texture: &Texture, sampler: &Sampler, lambda: f32) -> Self {
+        let lambda = if lambda.is_nan() { 0.0 } else { lambda };
+        let filter = if lambda > 0.0 {
+            sampler.min
+        } else {
+            sampler.mag
+        };
+        let last = texture.levels.len() - 1;
+        let largest = last.min(sampler.max_mip_level as usize);
+        let level = lambda.clamp(largest as f32, last as f32);
+        let only = |level: usize| Self {
+            filter,
+            first: level,
+            second: level,
+            blend: 0.0,
+        };
+        match sampler.mip {
+            MipFilter::None => only(0),
+            MipFilter::Point => only(last.min((level + 0.5) as usize)),
+            MipFilter::Linear => {
+                let first = last.min(level as usize);
+                Self {
+                    filter,
+                    first,
+                    second: last.min(first + 1),
+                    blend: level - first as f32,
+                }
+            }
+        }
+    }
+
+    /// Whether λ makes no difference, so that it need not be found.
+    fn is_fixed(texture: &Texture, sampler: &Sampler) -> bool {
+        sampler.mag == sampler.min && (sampler.mip == MipFilter::None || texture.levels.len() == 1)
+    }
+
+    /// Levels and their shares.
+    fn levels(self) -> impl Iterator<Item = (usize, f32)> {
+        let second = (self.blend > 0.0).then_some((self.second, self.blend));
+        [(self.first, 1.0 - self.blend)].into_iter().chain(second)
+    }
+}
+
+/// Where a coordinate lies: the face, and u, v, w in 0 to 1 (2D and volume: any number).
+#[derive(Clone, Copy)]
+struct Position {
+    face: usize,
+    uvw: [f32; 3],
+}
+
+impl Position {
+    #[inline(always)]
+    fn new(kind: TextureKind, coord: [f32; 3]) -> Self {
+        if kind == TextureKind::Cube {
+            let (face, [u, v]) = direction_to_face(coord);
+            Self {
+                face,
+                uvw: [u, v, 0.0],
+            }
+        } else {
+            Self {
+                face: 0,
+                uvw: coord.map(finite),
+            }
+        }
+    }
+}
+
+/// An index that stands for the border colour.
+const BORDER: i32 = -1;
+
+/// The texels of one axis that a filter reads: their indices (or [`BORDER`]) and the share of the second.
+#[derive(Clone, Copy)]
+struct Pair {
+    near: i32,
+    far: i32,
+    f: f32,
+}
+
+impl Pair {
+    const FIRST: Self = Self {
+        near: 0,
+        far: 0,
+        f: 0.0,
+    };
+
+    fn entries(self) -> [(i32, f32); 2] {
+        [(self.near, 1.0 - self.f), (self.far, self.f)]
+    }
+}
+
+/// Largest whole number not above x, for x within ±2^30.
+#[inline(always)]
+fn floor(x: f32) -> i32 {
+    let whole = x as i32;
+    whole - i32::from(whole as f32 > x)
+}
+
+/// The index before which a coordinate lies and the share of the next one; indices are not yet addressed.
+#[inline(always)]
+fn split(u: f32, n: u32, filter: Filter) -> (i32, f32) {
+    // Far beyond any texel that a float can tell apart from its neighbour; keeps i + 1 and −1 − i in range.
+    const FAR: f32 = 1_073_741_824.0;
+    let x = u * n as f32;
+    match filter {
+        Filter::Point => (floor(x.clamp(-FAR, FAR)), 0.0),
+        Filter::Linear => {
+            let x = (x - 0.5).clamp(-FAR, FAR);
+            let i = floor(x);
+            (i, x - i as f32)
+        }
+    }
+}
+
+/// The texel that index i stands for, on an axis of n texels.
+#[inline(always)]
+fn address(i: i32, n: u32, mode: AddressMode) -> i32 {
+    let n = n as i32;
+    if (0..n).contains(&i) {
+        return i;
+    }
+    match mode {
+        // Division is slow, and most textures have edges that are powers of two.
+        AddressMode::Wrap if n & (n - 1) == 0 => i & (n - 1),
+        AddressMode::Wrap => i.rem_euclid(n),
+        AddressMode::Mirror => {
+            let k = i.rem_euclid(2 * n);
+            if k < n { k } else { 2 * n - 1 - k }
+        }
+        AddressMode::Clamp => i.clamp(0, n - 1),
+        AddressMode::Border => BORDER,
+        AddressMode::MirrorOnce => (if i < 0 { -1 - i } else { i }).min(n - 1),
+    }
+}
+
+/// The texels of one level that a sample is made of.
+enum Taps {
+    /// On one face: all pairings of the indices of the axes.
+    Grid { face: usize, axes: [Pair; 3] },
+    /// Around the edge of a cube face: from the texel `x`, `y` (which may lie outside) two by two, and the shares of the
+    /// right column and the lower row.
+    Edge {
+        face: usize,
+        x: i32,
+        y: i32,
+        n: i32,
+        f: [f32; 2],
+    },
+}
+
+/// Finds the texels that `filter` reads around a position in one level.
+#[inline(always)]
+fn taps(
+    kind: TextureKind,
+    sampler: &Sampler,
+    level: &Level,
+    position: Position,
+    filter: Filter,
+) -> Taps {
+    let Position { face, uvw } = position;
+    let pair = |axis: usize, mode: AddressMode| {
+        let n = level.size[axis];
+        let (i, f) = split(uvw[axis], n, filter);
+        let near = address(i, n, mode);
+        let far = if filter == Filter::Point {
+            near
+        } else {
+            address(i + 1, n, mode)
+        };
+        Pair { near, far, f }
+    };
+    let [u, v, w] = sampler.address;
+    let axes = match kind {
+        TextureKind::Texture2D => [pair(0, u), pair(1, v), Pair::FIRST],
+        TextureKind::Volume => [pair(0, u), pair(1, v), pair(2, w)],
+        TextureKind::Cube => {
+            if sampler.seamless
+                && filter == Filter::Linear
+                && let Some(edge) = edge_taps(level, position)
+            {
+                return edge;
+            }
+            [
+                pair(0, AddressMode::Clamp),
+                pair(1, AddressMode::Clamp),
+                Pair::FIRST,
+            ]
+        }
+    };
+    Taps::Grid { face, axes }
+}
+
+/// The four texels around a position near the edge of a cube face; none if all lie on the face.
+fn edge_taps(
+    level: &Level,
+    Position {
+        face,
+        uvw: [u, v, _],
+    }: Position,
+) -> Option<Taps> {
+    let n = level.size[0];
+    let ((x, fx), (y, fy)) = (split(u, n, Filter::Linear), split(v, n, Filter::Linear));
+    let inside = |i: i32| i >= 0 && i + 1 < n as i32;
+    if inside(x) && inside(y) {
+        return None;
+    }
+    Some(Taps::Edge {
+        face,
+        x,
+        y,
+        n: n as i32,
+        f: [fx, fy],
+    })
+}
+
+/// The texels of a two by two block that reaches over an edge: upper left, upper right, lower left, lower right.
+fn corners(face: usize, [x, y]: [i32; 2], n: i32) -> [AcrossEdge; 4] {
+    [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]].map(|place| across_edge(face, place, n))
+}
+
+impl Taps {
+    /// The filtered value, times the scale of the store. `border` is scaled already.
+    #[inline(always)]
+    fn value<S: Store>(&self, store: S, level: &Level, border: [f32; 4]) -> [f32; 4] {
+        match self {
+            Self::Grid {
+                face,
+                axes: [x, y, z],
+            } => {
+                let fetch = |i: i32, j: i32, k: i32| {
+                    if i | j | k < 0 {
+                        border
+                    } else {
+                        store.fetch(level.index(*face, [i as usize, j as usize, k as usize]))
+                    }
+                };
+                if x.f == 0.0 && y.f == 0.0 && z.f == 0.0 {
+                    return fetch(x.near, y.near, z.near);
+                }
+                let row = |j, k| lerp(fetch(x.near, j, k), fetch(x.far, j, k), x.f);
+                let slice = |k| lerp(row(y.near, k), row(y.far, k), y.f);
+                let near = slice(z.near);
+                if z.f == 0.0 {
+                    near
+                } else {
+                    lerp(near, slice(z.far), z.f)
+                }
+            }
+            Self::Edge { face, x, y, n, f } => {
+                let [a, b, c, d] = corners(*face, [*x, *y], *n).map(|corner| {
+                    let mut sum = [0.0; 4];
+                    for &(face, [x, y]) in corner.places() {
+                        let texel = store.fetch(level.index(face, [x, y, 0]));
+                        for (sum, value) in sum.iter_mut().zip(texel) {
+                            *sum += value;
+                        }
+                    }
+                    sum.map(|sum| sum / corner.places().len() as f32)
+                });
+                lerp(lerp(a, b, f[0]), lerp(c, d, f[0]), f[1])
+            }
+        }
+    }
+
+    /// Calls `visit` with face, texel (none: border) and share of every texel that counts.
+    fn each(&self, mut visit: impl FnMut(usize, Option<[u32; 3]>, f32)) {
+        let mut visit = |face, texel, weight| {
+            if weight != 0.0 {
+                visit(face, texel, weight);
+            }
+        };
+        match self {
+            Self::Grid {
+                face,
+                axes: [x, y, z],
+            } => {
+                for (k, weight_z) in z.entries() {
+                    for (j, weight_y) in y.entries() {
+                        for (i, weight_x) in x.entries() {
+                            let texel = (i | j | k >= 0).then_some([i as u32, j as u32, k as u32]);
+                            visit(*face, texel, weight_x * weight_y * weight_z);
+                        }
+                    }
+                }
+            }
+            Self::Edge {
+                face,
+                x,
+                y,
+                n,
+                f: [fx, fy],
+            } => {
+                let weights = [
+                    (1.0 - fx) * (1.0 - fy),
+                    fx * (1.0 - fy),
+                    (1.0 - fx) * fy,
+                    fx * fy,
+                ];
+                for (corner, weight) in corners(*face, [*x, *y], *n).into_iter().zip(weights) {
+                    let share = weight / corner.places().len() as f32;
+                    for &(face, [x, y]) in corner.places() {
+                        visit(face, Some([x as u32, y as u32, 0]), share);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A texture with its sampler, compiled for one way of keeping texels.
+#[derive(Clone, Copy)]
+struct Reader<'a, S> {
+    store: S,
+    texture: &'a Texture,
+    sampler: &'a Sampler,
+    /// Border colour as the format would hold it, times the scale of the store.
+    border: [f32; 4],
+}
+
+impl<'a, S: Store> Reader<'a, S> {
+    fn new(store: S, texture: &'a Texture, sampler: &'a Sampler) -> Self {
+        let border = texture
+            .format
+            .with_fill(sampler.border)
+            .map(|value| value * S::SCALE);
+        Self {
+            store,
+            texture,
+            sampler,
+            border,
+        }
+    }
+
+    #[inline(always)]
+    fn level(&self, level: usize, position: Position, filter: Filter) -> [f32; 4] {
+        let level = &self.texture.levels[level];
+        taps(self.texture.kind, self.sampler, level, position, filter).value(
+            self.store,
+            level,
+            self.border,
+        )
+    }
+
+    #[inline(always)]
+    fn sample(&self, coord: [f32; 3], choice: Choice) -> [f32; 4] {
+        let position = Position::new(self.texture.kind, coord);
+        let mut value = self.level(choice.first, position, choice.filter);
+        if choice.blend > 0.0 {
+            value = lerp(
+                value,
+                self.level(choice.second, position, choice.filter),
+                choice.blend,
+            );
+        }
+        value.map(|value| value / S::SCALE)
+    }
+
+    fn sample_lanes<const N: usize>(&self, coords: &[[f32; N]; 3], out: &mut [[f32; N]; 4]) {
+        let Self {
+            texture, sampler, ..
+        } = *self;
+        let at = |lane: usize| [coords[0][lane], coords[1][lane], coords[2][lane]];
+        let fixed = Choice::is_fixed(texture, sampler);
+        for first in (0..N).step_by(4) {
+            let end = N.min(first + 4);
+            let lambda = if fixed || end - first < 4 {
+                NO_DERIVATIVES
+            } else {
+                level_of_detail(
+                    texture,
+                    sampler,
+                    &std::array::from_fn(|lane| at(first + lane)),
+                )
+            };
+            let choice = Choice::new(texture, sampler, lambda);
+            for lane in first..end {
+                let value = self.sample(at(lane), choice);
+                for (channel, value) in out.iter_mut().zip(value) {
+                    channel[lane] = value;
+                }
+            }
+        }
+    }
+}
+
+/// Samples a texture for N lanes at once.
+///
+/// `coords` are u, v, w (2D ignores w; a cube takes a direction of any length); `out` receives r, g, b, a.
+/// Each four lanes from 4q on are the pixels (x, y), (x+1, y), (x, y+1), (x+1, y+1) of a quad and share one level of
+/// detail ([`level_of_detail`]). Lanes that do not fill a quad (N = 1) have no derivatives: they are magnified and read
+/// the largest level that the sampler allows.
+/// Without a texture every lane reads (0, 0, 0, 1), as Direct3D 8 does for an empty stage.
+/// Any coordinate is allowed: NaN counts as 0, infinities as the largest finite number.
+pub fn sample_quads<const N: usize>(
+    texture: Option<&Texture>,
+    sampler: &Sampler,
+    coords: &[[f32; N]; 3],
+    out: &mut [[f32; N]; 4],
+) {
+    let Some(texture) = texture else {
+        *out = UNBOUND.map(|value| [value; N]);
+        return;
+    };
+    match &texture.texels {
+        Texels::Packed(words) => {
+            Reader::new(PackedStore(words), texture, sampler).sample_lanes(coords, out)
+        }
+        Texels::Float(texels) => {
+            Reader::new(FloatStore(texels), texture, sampler).sample_lanes(coords, out)
+        }
+    }
+}
+
+/// Samples a texture at one coordinate with a given level of detail λ (no bias is added to it).
+///
+/// λ > 0 takes the minification filter. Coordinates and results as in [`sample_quads`].
+pub fn sample_at(
+    texture: Option<&Texture>,
+    sampler: &Sampler,
+    coord: [f32; 3],
+    lod: f32,
+) -> [f32; 4] {
+    let Some(texture) = texture else {
+        return UNBOUND;
+    };
+    let choice = Choice::new(texture, sampler, lod);
+    match &texture.texels {
+        Texels::Packed(words) => {
+            Reader::new(PackedStore(words), texture, sampler).sample(coord, choice)
+        }
+        Texels::Float(texels) => {
+            Reader::new(FloatStore(texels), texture, sampler).sample(coord, choice)
+        }
+    }
+}
+
+/// λ of a 2×2 quad, bias included: log2 of the longer of the two steps, in texels of level 0.
+///
+/// The steps are those along the quad's upper row (lane 1 − lane 0) and left column (lane 2 − lane 0); the fourth lane
+/// does not count. On a cube all lanes are projected onto the face of lane 0, so that a quad across an edge has
+/// the derivative of one plane; a lane behind that plane counts as very far.
+/// −∞ when the coordinate does not change; never NaN unless the bias is.
+pub fn level_of_detail(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4]) -> f32 {
+    let lanes: [[f32; 3]; 3] = match texture.kind {
+        TextureKind::Texture2D => [0, 1, 2].map(|lane| {
+            let [u, v, _] = quad[lane].map(finite);
+            [u, v, 0.0]
+        }),
+        TextureKind::Volume => [0, 1, 2].map(|lane| quad[lane].map(finite)),
+        TextureKind::Cube => {
+            let (face, _) = direction_to_face(quad[0]);
+            [0, 1, 2].map(|lane| {
+                let [u, v] = project_onto(face, quad[lane]);
+                [u, v, 0.0]
+            })
+        }
+    };
+    let size = texture.levels[0].size.map(|edge| edge as f32);
+    let squared_step = |lane: usize| {
+        let mut sum = 0.0;
+        for axis in 0..3 {
+            let step = (lanes[lane][axis] - lanes[0][axis]) * size[axis];
+            sum += step * step;
+        }
+        sum
+    };
+    // log2 of a root is half the log2.
+    0.5 * f32::max(squared_step(1), squared_step(2)).log2() + sampler.lod_bias
+}
+
+/// One texel of a sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tap {
+    /// Face 0 to 5 of a cube, else 0.
+    pub face: usize,
+    /// Mip level.
+    pub level: u32,
+    /// Column, row and slice; none where the border colour stands for the texel.
+    pub texel: Option<[u32; 3]>,
+    /// Share of the texel in the sample, above 0; all shares add up to 1.
+    pub weight: f32,
+}
+
+/// What one sample was made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Footprint {
+    /// The filter within a level that λ chose.
+    pub filter: Filter,
+    /// The face of a cube that the direction meets, else 0.
+    pub face: usize,
+    /// u, v, w in the texture or in the face, before the address mode.
+    pub uvw: [f32; 3],
+    /// The mip levels read and their shares.
+    pub levels: Vec<(u32, f32)>,
+    /// The texels read, larger level first; the same texel may be listed twice where an address mode repeats it.
+    pub taps: Vec<Tap>,
+}
+
+/// Which texels [`sample_at`] with the same arguments reads, and how much of each. For debuggers.
+pub fn footprint(texture: &Texture, sampler: &Sampler, coord: [f32; 3], lod: f32) -> Footprint {
+    let choice = Choice::new(texture, sampler, lod);
+    let position = Position::new(texture.kind, coord);
+    let mut found = Vec::new();
+    for (number, share) in choice.levels() {
+        let level = &texture.levels[number];
+        taps(texture.kind, sampler, level, position, choice.filter).each(|face, texel, weight| {
+            found.push(Tap {
+                face,
+                level: number as u32,
+                texel,
+                weight: weight * share,
+            });
+        });
+    }
+    Footprint {
+        filter: choice.filter,
+        face: position.face,
+        uvw: position.uvw,
+        levels: choice
+            .levels()
+            .map(|(level, share)| (level as u32, share))
+            .collect(),
+        taps: found,
+    }
+}
