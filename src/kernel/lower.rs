@@ -407,7 +407,7 @@ fn texcoord_of(slot: Slot) -> Option<Slot> {
     Slot::texcoord(index)
 }
 
-/// Slots that hold something before the first step: temporaries that are read or returned, and all outputs.
+/// Slots that hold something before the first step: temporaries that are used or returned, and all outputs.
 fn is_preset(
     slot: Slot,
     kind: ShaderKind,
@@ -416,12 +416,13 @@ fn is_preset(
 ) -> bool {
     let used = !read[slot.index()].is_empty() || !written[slot.index()].is_empty();
     let temporary = (0..12).any(|i| Slot::temp(i) == Some(slot));
+    let texel = (0..4).any(|i| Slot::texture(i) == Some(slot));
     let output = (0..8).any(|i| Slot::texcoord_output(i) == Some(slot))
         || (0..2).any(|i| Slot::color_output(i) == Some(slot))
         || [Slot::POSITION, Slot::FOG, Slot::POINT_SIZE].contains(&slot);
     match kind {
         ShaderKind::Vertex => output || ((temporary || slot == Slot::ADDRESS) && used),
-        ShaderKind::Pixel => (temporary && used) || slot == Slot::R0 || (slot == Slot::ROW && used),
+        ShaderKind::Pixel => ((temporary || texel || slot == Slot::ROW) && used) || slot == Slot::R0,
     }
 }
 

@@ -1,0 +1,213 @@
+//! Kernels in their places around the rasterizer: vertices from a vertex shader, pixels from a pixel shader.
+
+use super::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, Vertex};
+use crate::exec::{Environment, Lanes, Machine, Observer};
+use crate::kernel::{Kernel, Slot};
+use crate::semantics;
+use glam::Vec4;
+use std::cell::RefCell;
+
+/// How many input registers a vertex shader has.
+const INPUTS: usize = 16;
+/// How many texture coordinate sets there are.
+const SETS: usize = 8;
+
+/// Runs a vertex shader over `count` vertices.
+///
+/// `fetch(vertex, register)` is the content of input register `v#`, 0 to 15, already expanded to four components; it
+/// is asked only for registers that the shader reads.
+pub fn shade_vertices(
+    kernel: &Kernel,
+    environment: &Environment<'_>,
+    count: usize,
+    fetch: impl Fn(usize, usize) -> [f32; 4] + Sync,
+) -> Vec<Vertex> {
+    let inputs: Vec<(usize, Slot)> = (0..INPUTS)
+        .filter_map(|i| Some((i, Slot::input(i)?)))
+        .filter(|(_, slot)| !kernel.read(*slot).is_empty())
+        .collect();
+    let batch = |number: usize| -> Vec<Vertex> {
+        let first = number * LANES;
+        let live = count.saturating_sub(first).min(LANES);
+        MACHINE.with_borrow_mut(|machine| {
+            for (register, slot) in &inputs {
+                let lanes = machine.register_mut(*slot);
+                for lane in 0..live {
+                    let value = fetch(first + lane, *register);
+                    for c in 0..4 {
+                        lanes[c][lane] = value[c];
+                    }
+                }
+            }
+            machine.run(kernel, environment);
+            (0..live).map(|lane| vertex(kernel, machine, lane)).collect()
+        })
+    };
+    let batches = count.div_ceil(LANES);
+    #[cfg(feature = "parallel")]
+    let vertices = {
+        use rayon::prelude::*;
+        (0..batches).into_par_iter().flat_map_iter(batch).collect()
+    };
+    #[cfg(not(feature = "parallel"))]
+    let vertices = (0..batches).flat_map(batch).collect();
+    vertices
+}
+
+/// What one lane of a vertex shader leaves to the rasterizer.
+fn vertex<const N: usize>(kernel: &Kernel, machine: &Machine<N>, lane: usize) -> Vertex {
+    let of = |slot: Slot| Vec4::from(machine.lane(slot, lane));
+    let color = |i: usize| Slot::color_output(i).map_or(Vec4::ZERO, of);
+    let mut texcoords = [Vec4::ZERO; SETS];
+    for (i, set) in texcoords.iter_mut().enumerate() {
+        *set = Slot::texcoord_output(i).map_or(Vec4::ZERO, of);
+    }
+    let sized = !kernel.written(Slot::POINT_SIZE).is_empty();
+    Vertex {
+        position: of(Slot::POSITION),
+        diffuse: color(0),
+        specular: color(1),
+        texcoords,
+        fog: machine.lane(Slot::FOG, lane)[kernel.fog_component & 3],
+        point_size: sized
+            .then(|| machine.lane(Slot::POINT_SIZE, lane)[kernel.point_size_component & 3]),
+    }
+}
+
+thread_local! {
+    /// The registers of a batch, kept from one to the next: a kernel loads what it reads before it reads it.
+    static MACHINE: RefCell<Machine<LANES>> = RefCell::new(Machine::new());
+}
+
+/// A register shown instead of the pixel's colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegisterPicture {
+    /// The register.
+    pub slot: Slot,
+    /// How many instructions run before it is looked at; `usize::MAX`: all.
+    pub instructions: usize,
+    /// What of it is shown.
+    pub view: View,
+    /// Whether the absolute value is shown.
+    pub absolute: bool,
+    /// What the value is multiplied by.
+    pub scale: f32,
+}
+
+/// What of a register is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// x, y and z as red, green and blue.
+    #[default]
+    Color,
+    /// One component (0 to 3) as grey.
+    Component(usize),
+    /// The length of (x, y, z) as grey.
+    Magnitude,
+}
+
+impl RegisterPicture {
+    /// The colour that stands for a register's content.
+    fn color(&self, register: [f32; 4]) -> [f32; 4] {
+        let [x, y, z, _] = register;
+        let shown = match self.view {
+            View::Color => [x, y, z],
+            View::Component(c) => [register[c & 3]; 3],
+            View::Magnitude => [Vec4::new(x, y, z, 0.0).length(); 3],
+        };
+        let [r, g, b] = shown.map(|value| {
+            let value = if self.absolute { value.abs() } else { value };
+            value * self.scale
+        });
+        [r, g, b, 1.0]
+    }
+}
+
+/// A pixel shader with everything that is set while it runs.
+pub struct PixelProgram<'a> {
+    /// The shader.
+    pub kernel: &'a Kernel,
+    /// Its textures, stage states and constants.
+    pub environment: &'a Environment<'a>,
+    /// A register to show instead of the colour.
+    pub picture: Option<RegisterPicture>,
+}
+
+/// Sees nothing.
+struct Nothing;
+
+impl Observer<LANES> for Nothing {
+    fn wrote(&mut self, _: usize, _: &Lanes<LANES>, _: &Lanes<LANES>) {}
+    fn killed(&mut self, _: usize, _: &[bool; LANES]) {}
+}
+
+impl PixelProgram<'_> {
+    fn texcoords(&self) -> impl Iterator<Item = (usize, Slot)> {
+        let shown = self.picture.map(|p| p.slot);
+        (0..SETS)
+            .filter_map(|i| Some((i, Slot::texcoord(i)?)))
+            .filter(move |(_, slot)| Some(*slot) == shown || !self.kernel.read(*slot).is_empty())
+    }
+
+    fn color(&self, index: usize) -> Option<Slot> {
+        let shown = self.picture.map(|p| p.slot);
+        Slot::input(index)
+            .filter(|slot| Some(*slot) == shown || !self.kernel.read(*slot).is_empty())
+    }
+}
+
+impl PixelShader for PixelProgram<'_> {
+    fn inputs(&self) -> PixelInputs {
+        PixelInputs {
+            diffuse: self.color(0).is_some(),
+            specular: self.color(1).is_some(),
+            texcoords: self.texcoords().fold(0, |bits, (i, _)| bits | 1 << i),
+        }
+    }
+
+    fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {
+        MACHINE.with_borrow_mut(|machine| {
+            for (i, slot) in self.texcoords() {
+                *machine.register_mut(slot) = batch.texcoords[i];
+            }
+            for (i, color) in [&batch.diffuse, &batch.specular].into_iter().enumerate() {
+                if let Some(slot) = self.color(i) {
+                    *machine.register_mut(slot) = clamped(color);
+                }
+            }
+            match &self.picture {
+                None => {
+                    machine.run(self.kernel, self.environment);
+                    out.color = *machine.register(Slot::R0);
+                }
+                Some(picture) => {
+                    let most = picture.instructions;
+                    machine.run_observed(self.kernel, self.environment, most, &mut Nothing);
+                    for lane in 0..LANES {
+                        let color = picture.color(machine.lane(picture.slot, lane));
+                        for c in 0..4 {
+                            out.color[c][lane] = color[c];
+                        }
+                    }
+                }
+            }
+            out.killed = *machine.killed();
+            if self.kernel.writes_depth() {
+                out.depth = machine.register(Slot::DEPTH)[0];
+            }
+        });
+    }
+
+    fn writes_depth(&self) -> bool {
+        self.kernel.writes_depth()
+    }
+
+    fn may_kill(&self) -> bool {
+        self.kernel.kills()
+    }
+}
+
+/// Interpolated colours reach the shader in 0…1.
+fn clamped(color: &Attribute) -> Attribute {
+    color.map(|component| component.map(semantics::saturate))
+}
