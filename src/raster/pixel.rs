@@ -1,0 +1,137 @@
+//! What pixel shaders are given and what they give back.
+
+/// Pixels that are shaded together. A multiple of 4: lanes 4q to 4q+3 are the quad (x, y), (x+1, y), (x, y+1),
+/// (x+1, y+1), with x and y even.
+pub const LANES: usize = 32;
+
+/// Quads that are shaded together.
+pub(super) const QUADS: usize = LANES / 4;
+
+/// Four components of all lanes, component by component.
+pub type Attribute = [[f32; LANES]; 4];
+
+/// The inputs of up to [`LANES`] pixels.
+///
+/// Lanes from `4 * quads` on hold nothing of meaning, and so do attributes that [`PixelShader::inputs`] leaves out.
+#[derive(Debug, Clone)]
+pub struct PixelBatch {
+    /// How many quads there are, 1 to `LANES / 4`.
+    pub quads: usize,
+    /// The column of each pixel. A pixel that is not live may lie outside the target.
+    pub x: [i32; LANES],
+    /// The row of each pixel.
+    pub y: [i32; LANES],
+    /// Whether the pixel may be written. The others complete quads, for differences between neighbours: their inputs are
+    /// those of the primitive's plane continued beyond its edge.
+    pub live: [bool; LANES],
+    /// `v0`, in 0 to 1.
+    pub diffuse: Attribute,
+    /// `v1`, in 0 to 1.
+    pub specular: Attribute,
+    /// `t0` to `t7`, as the vertices had them.
+    pub texcoords: [Attribute; 8],
+    /// The depth, in 0 to 1.
+    pub z: [f32; LANES],
+    /// The w of the position.
+    pub w: [f32; LANES],
+    /// The fog factor of the vertices, in 0 to 1.
+    pub fog: [f32; LANES],
+}
+
+impl PixelBatch {
+    /// A batch of no quads.
+    pub fn empty() -> Self {
+        Self {
+            quads: 0,
+            x: [0; LANES],
+            y: [0; LANES],
+            live: [false; LANES],
+            diffuse: [[0.0; LANES]; 4],
+            specular: [[0.0; LANES]; 4],
+            texcoords: [[[0.0; LANES]; 4]; 8],
+            z: [0.0; LANES],
+            w: [1.0; LANES],
+            fog: [1.0; LANES],
+        }
+    }
+
+    /// Puts a quad in its place: the position of its first pixel, which of its pixels are live (bit i: lane i of the
+    /// quad), their depths.
+    #[inline]
+    pub(super) fn place(&mut self, quad: usize, x: i32, y: i32, live: u8, z: &[f32; 4]) {
+        for (i, z) in z.iter().enumerate() {
+            let lane = 4 * quad + i;
+            self.x[lane] = x + (i & 1) as i32;
+            self.y[lane] = y + (i >> 1) as i32;
+            self.live[lane] = live >> i & 1 == 1;
+            self.z[lane] = *z;
+        }
+    }
+}
+
+/// What became of the pixels of a batch. It comes to [`PixelShader::shade`] with nothing killed.
+#[derive(Debug, Clone)]
+pub struct PixelResult {
+    /// `r0`. The merger takes it into 0 to 1.
+    pub color: Attribute,
+    /// Pixels that `texkill` took out.
+    pub killed: [bool; LANES],
+    /// Depths that replace the interpolated ones, if [`PixelShader::writes_depth`].
+    pub depth: [f32; LANES],
+}
+
+impl PixelResult {
+    /// A result to be written over: black, nothing killed.
+    pub fn new() -> Self {
+        Self {
+            color: [[0.0; LANES]; 4],
+            killed: [false; LANES],
+            depth: [0.0; LANES],
+        }
+    }
+}
+
+impl Default for PixelResult {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Which inputs a pixel shader reads; the others need not be interpolated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PixelInputs {
+    /// Reads `v0`.
+    pub diffuse: bool,
+    /// Reads `v1`.
+    pub specular: bool,
+    /// Bit n: reads coordinate set n.
+    pub texcoords: u8,
+}
+
+impl PixelInputs {
+    /// Everything.
+    pub const ALL: Self = Self {
+        diffuse: true,
+        specular: true,
+        texcoords: 0xff,
+    };
+}
+
+/// The pixel side of a draw call. Pixels must not depend on which others share their batch, quads apart.
+pub trait PixelShader: Sync {
+    /// What it reads.
+    fn inputs(&self) -> PixelInputs;
+
+    /// Shades the lanes below `4 * batch.quads`, those that are not live too.
+    fn shade(&self, batch: &PixelBatch, out: &mut PixelResult);
+
+    /// Whether it sets [`PixelResult::depth`]. The depth test then waits for it.
+    fn writes_depth(&self) -> bool {
+        false
+    }
+
+    /// Whether it may set [`PixelResult::killed`]. If not, the depth test need not wait for it.
+    fn may_kill(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,285 @@
+//! From primitives to what is drawn on the screen: fixed-point edges, and planes for all that is interpolated.
+//!
+//! Screen positions are rounded to 1/256 pixel before anything is derived from them. Edge functions are exact integers, so
+//! each pixel belongs to exactly one of the triangles around a shared edge.
+
+use super::clip::{ClipVertex, Clipper, GUARD};
+use super::points_lines;
+use super::scan::{Bounds, Edge, Shape};
+use super::state::{CullMode, FillMode, Viewport};
+use super::{DrawCall, DrawError, Topology, Vertex};
+
+/// Subpixels of a pixel.
+pub(super) const SUBPIXELS: i64 = 256;
+
+/// One step of `D3DRS_ZBIAS`.
+const DEPTH_BIAS_STEP: f64 = 1.0 / 65535.0;
+
+/// A linear function of the pixel position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plane {
+    /// The value at pixel (0, 0).
+    pub(super) at: f64,
+    /// The change for one pixel to the right.
+    pub(super) dx: f64,
+    /// The change for one pixel downwards.
+    pub(super) dy: f64,
+}
+
+impl Plane {
+    pub(super) fn constant(at: f64) -> Self {
+        Self {
+            at,
+            dx: 0.0,
+            dy: 0.0,
+        }
+    }
+
+    #[inline]
+    pub(super) fn value(&self, x: i32, y: i32) -> f64 {
+        self.at + self.dx * f64::from(x) + self.dy * f64::from(y)
+    }
+}
+
+/// A corner on the screen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    /// In subpixels.
+    pub(super) x: i64,
+    pub(super) y: i64,
+    pub(super) z: f64,
+    pub(super) w: f64,
+    pub(super) shares: [f64; 2],
+}
+
+impl Corner {
+    /// The position in pixels.
+    pub(super) fn pixels(&self) -> [f64; 2] {
+        [self.x, self.y].map(|v| v as f64 / SUBPIXELS as f64)
+    }
+}
+
+/// What is interpolated over one shape. Attributes are not in here: they follow from the shares of the vertices.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Planes {
+    /// `w_scale / w`, so that its greatest value at a corner is 1.
+    pub(super) inverse_w: Plane,
+    /// The shares of the second and third vertex, times `inverse_w`.
+    pub(super) shares: [Plane; 2],
+    pub(super) z: Plane,
+    pub(super) w_scale: f32,
+    /// `inverse_w` is never taken smaller than this, lest it reach zero at a pixel beside the shape.
+    pub(super) inverse_w_floor: f32,
+}
+
+impl Planes {
+    /// From the value of any linear quantity at each of the corners to its plane.
+    pub(super) fn new<const N: usize>(
+        corners: &[Corner; N],
+        plane: impl Fn([f64; N]) -> Plane,
+    ) -> Self {
+        let w_scale = corners
+            .iter()
+            .fold(f64::INFINITY, |least, corner| least.min(corner.w));
+        let inverse_w = corners.map(|corner| w_scale / corner.w);
+        let least = inverse_w.iter().fold(1.0, |least: f64, v| least.min(*v));
+        let share = |which: usize| {
+            plane(std::array::from_fn(|i| {
+                corners[i].shares[which] * inverse_w[i]
+            }))
+        };
+        Self {
+            inverse_w: plane(inverse_w),
+            shares: [share(0), share(1)],
+            z: plane(corners.map(|corner| corner.z)),
+            w_scale: w_scale as f32,
+            inverse_w_floor: (least / 256.0).max(1e-30) as f32,
+        }
+    }
+}
+
+/// A shape on the screen that is ready to be drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Setup {
+    /// The vertices whose attributes are interpolated.
+    pub(super) vertices: [u32; 3],
+    /// The vertex that gives the colours of flat shading.
+    pub(super) provoking: u32,
+    /// Whether the coordinate sets are replaced by the position inside the point.
+    pub(super) sprite: bool,
+    /// What may be covered, within the scissor.
+    pub(super) bounds: Bounds,
+    pub(super) shape: Shape,
+    pub(super) planes: Planes,
+}
+
+/// The part of a draw call that turns primitives into shapes.
+pub(super) struct Stage<'a> {
+    pub(super) call: DrawCall<'a>,
+    viewport: Viewport,
+    clipper: Clipper,
+    /// The viewport, within the target.
+    pub(super) scissor: Bounds,
+}
+
+impl<'a> Stage<'a> {
+    /// For a target of a size.
+    pub(super) fn new(call: DrawCall<'a>, size: (u32, u32)) -> Result<Self, DrawError> {
+        let Viewport { min_z, max_z, .. } = call.viewport;
+        if !min_z.is_finite() || !max_z.is_finite() {
+            return Err(DrawError::ViewportDepth { min_z, max_z });
+        }
+        let viewport = Viewport {
+            min_z: min_z.clamp(0.0, 1.0),
+            max_z: max_z.clamp(0.0, 1.0),
+            ..call.viewport
+        };
+        let end = |start: u32, length: u32, limit: u32| {
+            i32::try_from(start.saturating_add(length).min(limit))
+        };
+        let scissor = Bounds {
+            x0: i32::try_from(viewport.x).unwrap_or(i32::MAX),
+            y0: i32::try_from(viewport.y).unwrap_or(i32::MAX),
+            x1: end(viewport.x, viewport.width, size.0).unwrap_or(i32::MAX),
+            y1: end(viewport.y, viewport.height, size.1).unwrap_or(i32::MAX),
+        };
+        Ok(Self {
+            clipper: Clipper::new(&viewport, &call.state.clip_planes),
+            call,
+            viewport,
+            scissor,
+        })
+    }
+
+    /// Adds the shapes of a primitive, in drawing order.
+    pub(super) fn primitive(
+        &self,
+        topology: Topology,
+        vertices: [u32; 3],
+        shapes: &mut Vec<Setup>,
+    ) {
+        let corner = |i: usize| self.vertex(vertices[i]).position;
+        match topology {
+            Topology::PointList => {
+                let kept = self.clipper.clip(&[corner(0)]);
+                shapes.extend(
+                    kept.first().and_then(|kept| {
+                        points_lines::point(self, vertices, &self.to_screen(kept))
+                    }),
+                );
+            }
+            Topology::LineList | Topology::LineStrip => {
+                let kept = self.clipper.clip(&[corner(0), corner(1)]);
+                if let [from, to] = &kept[..] {
+                    let ends = [self.to_screen(from), self.to_screen(to)];
+                    shapes.extend(points_lines::line(self, vertices, &ends));
+                }
+            }
+            Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
+                let kept = self.clipper.clip(&[corner(0), corner(1), corner(2)]);
+                self.polygon(vertices, &kept, shapes);
+            }
+        }
+    }
+
+    pub(super) fn vertex(&self, index: u32) -> &'a Vertex {
+        &self.call.vertices[index as usize]
+    }
+
+    /// What is left of a triangle, as area, edges or corners.
+    fn polygon(&self, vertices: [u32; 3], kept: &[ClipVertex], shapes: &mut Vec<Setup>) {
+        if kept.len() < 3 {
+            return;
+        }
+        let corners: Vec<Corner> = kept.iter().map(|corner| self.to_screen(corner)).collect();
+        let fan = |i: usize| [&corners[0], &corners[i], &corners[i + 1]];
+        let area: i64 = (1..corners.len() - 1).map(|i| doubled_area(fan(i))).sum();
+        let culled = match self.call.state.cull {
+            CullMode::None => area == 0,
+            CullMode::Cw => area >= 0,
+            CullMode::Ccw => area <= 0,
+        };
+        if culled {
+            return;
+        }
+        match self.call.state.fill {
+            FillMode::Solid => shapes.extend((1..corners.len() - 1).filter_map(|i| {
+                let part = fan(i);
+                // Rounding may turn over a sliver of the polygon, which the rest of it then covers.
+                (doubled_area(part).signum() == area.signum())
+                    .then(|| self.triangle(vertices, part.map(|corner| *corner)))
+                    .flatten()
+            })),
+            FillMode::Wireframe => shapes.extend((0..corners.len()).filter_map(|i| {
+                let ends = [corners[i], corners[(i + 1) % corners.len()]];
+                points_lines::line(self, vertices, &ends)
+            })),
+            FillMode::Point => shapes.extend(
+                corners
+                    .iter()
+                    .zip(kept)
+                    .filter(|(_, kept)| kept.original)
+                    .filter_map(|(corner, _)| points_lines::point(self, vertices, corner)),
+            ),
+        }
+    }
+
+    fn triangle(&self, vertices: [u32; 3], mut corners: [Corner; 3]) -> Option<Setup> {
+        if doubled_area(corners.each_ref()) < 0 {
+            corners.swap(1, 2);
+        }
+        let bounds = Bounds::around(&corners).intersect(&self.scissor)?;
+        let area = doubled_area(corners.each_ref()) as f64 / (SUBPIXELS * SUBPIXELS) as f64;
+        let [[x0, y0], [x1, y1], [x2, y2]] = corners.map(|corner| corner.pixels());
+        let planes = Planes::new(&corners, |[v0, v1, v2]| {
+            let dx = ((v1 - v0) * (y2 - y0) - (v2 - v0) * (y1 - y0)) / area;
+            let dy = ((v2 - v0) * (x1 - x0) - (v1 - v0) * (x2 - x0)) / area;
+            Plane {
+                at: v0 - dx * x0 - dy * y0,
+                dx,
+                dy,
+            }
+        });
+        let [a, b, c] = &corners;
+        Some(Setup {
+            vertices,
+            provoking: vertices[0],
+            sprite: false,
+            bounds,
+            shape: Shape::Triangle([Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)]),
+            planes: self.biased(planes),
+        })
+    }
+
+    /// `D3DRS_ZBIAS` brings what is drawn nearer.
+    pub(super) fn biased(&self, mut planes: Planes) -> Planes {
+        planes.z.at -= f64::from(self.call.state.depth.bias) * DEPTH_BIAS_STEP;
+        planes
+    }
+
+    /// Division by w and the viewport transform of Direct3D 8.
+    fn to_screen(&self, corner: &ClipVertex) -> Corner {
+        let [x, y, z, w] = corner.position;
+        // Cuts near w = 0 are rounded too; whatever comes of that lies outside of every target.
+        let w = w.max(f64::from(f32::MIN_POSITIVE));
+        let viewport = &self.viewport;
+        let snap = |v: f64| {
+            let v = if v.is_nan() { 0.0 } else { v };
+            (v.clamp(-2.0 * GUARD, 2.0 * GUARD) * SUBPIXELS as f64 + 0.5).floor() as i64
+        };
+        let (min_z, max_z) = (f64::from(viewport.min_z), f64::from(viewport.max_z));
+        Corner {
+            x: snap(f64::from(viewport.x) + (x / w + 1.0) * f64::from(viewport.width) / 2.0),
+            y: snap(f64::from(viewport.y) + (1.0 - y / w) * f64::from(viewport.height) / 2.0),
+            z: min_z + (z / w).clamp(0.0, 1.0) * (max_z - min_z),
+            w,
+            shares: corner.shares,
+        }
+    }
+}
+
+/// Twice the area in square subpixels, positive for clockwise triangles on a screen whose y points down.
+fn doubled_area(corners: [&Corner; 3]) -> i64 {
+    let [a, b, c] = corners;
+    (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
+}

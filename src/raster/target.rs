@@ -1,0 +1,224 @@
+//! What is drawn into: 8-bit colour, depth and stencil.
+//!
+//! The three lie in square tiles, each on its own, so that cores can draw different tiles without sharing anything.
+
+use std::fmt;
+
+use image::{Rgba, RgbaImage};
+
+/// The side of a tile in pixels. Even, so that no 2×2 quad lies in two tiles.
+pub(super) const TILE: u32 = 64;
+const TILE_PIXELS: usize = (TILE * TILE) as usize;
+
+/// What a colour target stores.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColorFormat {
+    /// Colour and alpha.
+    #[default]
+    A8R8G8B8,
+    /// Colour only: the alpha reads 1 and cannot be written.
+    X8R8G8B8,
+}
+
+/// A target of a size that this crate refuses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TargetTooLarge {
+    /// The width asked for.
+    pub width: u32,
+    /// The height asked for.
+    pub height: u32,
+}
+
+impl fmt::Display for TargetTooLarge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "a target of {}×{} pixels is too large: at most {} on a side and {} in all",
+            self.width,
+            self.height,
+            Target::MAX_SIDE,
+            Target::MAX_PIXELS
+        )
+    }
+}
+
+impl std::error::Error for TargetTooLarge {}
+
+/// One tile; pixels row by row.
+pub(super) struct Tile {
+    pub(super) color: Box<[[u8; 4]]>,
+    pub(super) depth: Box<[f32]>,
+    pub(super) stencil: Box<[u8]>,
+}
+
+/// A colour, depth and stencil buffer of one size. Pixel (0, 0) is the upper left one.
+pub struct Target {
+    width: u32,
+    height: u32,
+    format: ColorFormat,
+    tiles: Vec<Tile>,
+}
+
+impl Target {
+    /// The largest width and height.
+    pub const MAX_SIDE: u32 = 16384;
+    /// The largest number of pixels, which take 9 bytes each. Sides count as rounded up to whole tiles of 64.
+    pub const MAX_PIXELS: u64 = 1 << 26;
+
+    /// A target that is transparent black, at depth 1 and stencil 0. A size of 0 is a target without pixels.
+    ///
+    /// # Errors
+    ///
+    /// [`TargetTooLarge`] beyond [`Self::MAX_SIDE`] or [`Self::MAX_PIXELS`].
+    pub fn new(width: u32, height: u32, format: ColorFormat) -> Result<Self, TargetTooLarge> {
+        // Tiles are held whole, so it is their pixels that count.
+        let count = u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE));
+        if width > Self::MAX_SIDE
+            || height > Self::MAX_SIDE
+            || count * TILE_PIXELS as u64 > Self::MAX_PIXELS
+        {
+            return Err(TargetTooLarge { width, height });
+        }
+        let color = clear_color(format, [0; 4]);
+        let tiles = (0..count)
+            .map(|_| Tile {
+                color: vec![color; TILE_PIXELS].into_boxed_slice(),
+                depth: vec![1.0; TILE_PIXELS].into_boxed_slice(),
+                stencil: vec![0; TILE_PIXELS].into_boxed_slice(),
+            })
+            .collect();
+        Ok(Self {
+            width,
+            height,
+            format,
+            tiles,
+        })
+    }
+
+    /// The width in pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// The height in pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// What the colour buffer stores.
+    pub fn format(&self) -> ColorFormat {
+        self.format
+    }
+
+    /// Sets every pixel of the buffers that are given a value: colour as red, green, blue, alpha; depth taken into 0 to 1
+    /// (NaN is 0); stencil.
+    pub fn clear(&mut self, color: Option<[u8; 4]>, depth: Option<f32>, stencil: Option<u8>) {
+        for tile in &mut self.tiles {
+            if let Some(color) = color {
+                tile.color.fill(clear_color(self.format, color));
+            }
+            if let Some(depth) = depth {
+                tile.depth.fill(super::unit(depth));
+            }
+            if let Some(stencil) = stencil {
+                tile.stencil.fill(stencil);
+            }
+        }
+    }
+
+    /// Red, green, blue and alpha of a pixel; `None` outside.
+    pub fn color(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        let (tile, pixel) = self.locate(x, y)?;
+        tile.color.get(pixel).copied()
+    }
+
+    /// The depth of a pixel, 0 to 1; `None` outside.
+    pub fn depth(&self, x: u32, y: u32) -> Option<f32> {
+        let (tile, pixel) = self.locate(x, y)?;
+        tile.depth.get(pixel).copied()
+    }
+
+    /// The stencil value of a pixel; `None` outside.
+    pub fn stencil(&self, x: u32, y: u32) -> Option<u8> {
+        let (tile, pixel) = self.locate(x, y)?;
+        tile.stencil.get(pixel).copied()
+    }
+
+    /// The colours as a picture.
+    pub fn to_image(&self) -> RgbaImage {
+        let mut picture = RgbaImage::new(self.width, self.height);
+        for (x, y, pixel) in picture.enumerate_pixels_mut() {
+            *pixel = Rgba(self.color(x, y).unwrap_or_default());
+        }
+        picture
+    }
+
+    fn locate(&self, x: u32, y: u32) -> Option<(&Tile, usize)> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let tile = y / TILE * self.tiles_across() + x / TILE;
+        Some((
+            self.tiles.get(tile as usize)?,
+            (y % TILE * TILE + x % TILE) as usize,
+        ))
+    }
+
+    /// How many tiles lie side by side.
+    pub(super) fn tiles_across(&self) -> u32 {
+        self.width.div_ceil(TILE)
+    }
+
+    /// The tiles, row by row.
+    pub(super) fn tiles_mut(&mut self) -> &mut [Tile] {
+        &mut self.tiles
+    }
+}
+
+fn clear_color(format: ColorFormat, color: [u8; 4]) -> [u8; 4] {
+    match format {
+        ColorFormat::A8R8G8B8 => color,
+        ColorFormat::X8R8G8B8 => [color[0], color[1], color[2], 255],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_of_every_tile_are_found() {
+        let mut target = Target::new(130, 65, ColorFormat::A8R8G8B8).unwrap();
+        assert_eq!(target.color(129, 64), Some([0; 4]));
+        assert_eq!(target.depth(0, 64), Some(1.0));
+        assert_eq!(target.color(130, 0), None);
+        assert_eq!(target.stencil(0, 65), None);
+        target.clear(Some([1, 2, 3, 4]), Some(f32::NAN), Some(9));
+        assert_eq!(target.color(64, 64), Some([1, 2, 3, 4]));
+        assert_eq!(target.depth(64, 64), Some(0.0));
+        assert_eq!(target.stencil(64, 64), Some(9));
+        assert_eq!(target.to_image().dimensions(), (130, 65));
+    }
+
+    #[test]
+    fn without_alpha_it_reads_one() {
+        let mut target = Target::new(1, 1, ColorFormat::X8R8G8B8).unwrap();
+        assert_eq!(target.color(0, 0), Some([0, 0, 0, 255]));
+        target.clear(Some([7, 7, 7, 7]), None, None);
+        assert_eq!(target.color(0, 0), Some([7, 7, 7, 255]));
+    }
+
+    #[test]
+    fn sizes_of_nothing_and_of_too_much() {
+        assert_eq!(
+            Target::new(0, 7, ColorFormat::A8R8G8B8)
+                .unwrap()
+                .to_image()
+                .dimensions(),
+            (0, 7)
+        );
+        assert!(Target::new(u32::MAX, 1, ColorFormat::A8R8G8B8).is_err());
+        assert!(Target::new(16384, 16384, ColorFormat::A8R8G8B8).is_err());
+        assert!(Target::new(u32::MAX, u32::MAX, ColorFormat::A8R8G8B8).is_err());
+    }
+}
