@@ -2,9 +2,9 @@
 
 use std::f32::consts::PI;
 
-use super::super::cube::face_to_direction;
-use super::super::storage::{Texels, lay_out};
-use super::super::{
+use crate::texture::cube::face_to_direction;
+use crate::texture::storage::{Texels, lay_out};
+use crate::texture::{
     AddressMode, Filter, Format, Sampler, Texture, TextureError, TextureKind, sample_at,
 };
 

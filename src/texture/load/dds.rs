@@ -2,9 +2,9 @@
 
 use ddsfile::{Caps2, D3D10ResourceDimension, Dds, DxgiFormat, MiscFlag};
 
-use super::super::format::{Channel, Layout};
-use super::super::storage::{lay_out, mip_size};
-use super::super::{Format, Texture, TextureError, TextureKind};
+use crate::texture::format::{Channel, Layout};
+use crate::texture::storage::{lay_out, mip_size};
+use crate::texture::{Format, Texture, TextureError, TextureKind};
 
 fn broken(problem: impl std::fmt::Display) -> TextureError {
     TextureError::File {

@@ -7,12 +7,15 @@
 //! A sample goes through three steps, each used by every way to sample: [`Choice`] (filter and levels from λ),
 //! [`Position`] (face and coordinate from the vector), [`Texel taps`](Taps) (which texels of a level, how much of each).
 
+mod footprint;
 #[cfg(test)]
 mod tests;
 
 use super::cube::{AcrossEdge, across_edge, direction_to_face, project_onto};
 use super::storage::{FloatStore, Level, PackedStore, Store, Texels};
 use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind};
+
+pub use footprint::{Footprint, Tap, footprint};
 
 /// What a stage without a texture reads.
 const UNBOUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -132,6 +135,17 @@ impl Pair {
         f: 0.0,
     };
 
+    #[inline(always)]
+    fn new(u: f32, n: u32, mode: AddressMode, filter: Filter) -> Self {
+        let (i, f) = split(u, n, filter);
+        let near = address(i, n, mode);
+        let far = match filter {
+            Filter::Point => near,
+            Filter::Linear => address(i + 1, n, mode),
+        };
+        Self { near, far, f }
+    }
+
     fn entries(self) -> [(i32, f32); 2] {
         [(self.near, 1.0 - self.f), (self.far, self.f)]
     }
@@ -206,17 +220,7 @@ fn taps(
     filter: Filter,
 ) -> Taps {
     let Position { face, uvw } = position;
-    let pair = |axis: usize, mode: AddressMode| {
-        let n = level.size[axis];
-        let (i, f) = split(uvw[axis], n, filter);
-        let near = address(i, n, mode);
-        let far = if filter == Filter::Point {
-            near
-        } else {
-            address(i + 1, n, mode)
-        };
-        Pair { near, far, f }
-    };
+    let pair = |axis: usize, mode| Pair::new(uvw[axis], level.size[axis], mode, filter);
     let [u, v, w] = sampler.address;
     let axes = match kind {
         TextureKind::Texture2D => [pair(0, u), pair(1, v), Pair::FIRST],
@@ -261,6 +265,36 @@ fn edge_taps(
     })
 }
 
+/// One face of one level. Functions rather than closures, which the compiler does not inline here.
+#[derive(Clone, Copy)]
+struct Grid<'a, S> {
+    store: S,
+    level: &'a Level,
+    face: usize,
+    border: [f32; 4],
+}
+
+impl<S: Store> Grid<'_, S> {
+    #[inline(always)]
+    fn fetch(&self, i: i32, j: i32, k: i32) -> [f32; 4] {
+        if i | j | k < 0 {
+            return self.border;
+        }
+        let place = [i as usize, j as usize, k as usize];
+        self.store.fetch(self.level.index(self.face, place))
+    }
+
+    #[inline(always)]
+    fn row(&self, x: Pair, j: i32, k: i32) -> [f32; 4] {
+        lerp(self.fetch(x.near, j, k), self.fetch(x.far, j, k), x.f)
+    }
+
+    #[inline(always)]
+    fn slice(&self, x: Pair, y: Pair, k: i32) -> [f32; 4] {
+        lerp(self.row(x, y.near, k), self.row(x, y.far, k), y.f)
+    }
+}
+
 /// The texels of a two by two block that reaches over an edge: upper left, upper right, lower left, lower right.
 fn corners(face: usize, [x, y]: [i32; 2], n: i32) -> [AcrossEdge; 4] {
     [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]].map(|place| across_edge(face, place, n))
@@ -275,23 +309,20 @@ impl Taps {
                 face,
                 axes: [x, y, z],
             } => {
-                let fetch = |i: i32, j: i32, k: i32| {
-                    if i | j | k < 0 {
-                        border
-                    } else {
-                        store.fetch(level.index(*face, [i as usize, j as usize, k as usize]))
-                    }
+                let grid = Grid {
+                    store,
+                    level,
+                    face: *face,
+                    border,
                 };
                 if x.f == 0.0 && y.f == 0.0 && z.f == 0.0 {
-                    return fetch(x.near, y.near, z.near);
+                    return grid.fetch(x.near, y.near, z.near);
                 }
-                let row = |j, k| lerp(fetch(x.near, j, k), fetch(x.far, j, k), x.f);
-                let slice = |k| lerp(row(y.near, k), row(y.far, k), y.f);
-                let near = slice(z.near);
+                let near = grid.slice(*x, *y, z.near);
                 if z.f == 0.0 {
                     near
                 } else {
-                    lerp(near, slice(z.far), z.f)
+                    lerp(near, grid.slice(*x, *y, z.far), z.f)
                 }
             }
             Self::Edge { face, x, y, n, f } => {
@@ -380,23 +411,25 @@ impl<'a, S: Store> Reader<'a, S> {
     }
 
     #[inline(always)]
-    fn level(&self, level: usize, position: Position, filter: Filter) -> [f32; 4] {
+    fn level(
+        &self,
+        kind: TextureKind,
+        level: usize,
+        position: Position,
+        filter: Filter,
+    ) -> [f32; 4] {
         let level = &self.texture.levels[level];
-        taps(self.texture.kind, self.sampler, level, position, filter).value(
-            self.store,
-            level,
-            self.border,
-        )
+        taps(kind, self.sampler, level, position, filter).value(self.store, level, self.border)
     }
 
     #[inline(always)]
-    fn sample(&self, coord: [f32; 3], choice: Choice) -> [f32; 4] {
-        let position = Position::new(self.texture.kind, coord);
-        let mut value = self.level(choice.first, position, choice.filter);
+    fn sample(&self, kind: TextureKind, coord: [f32; 3], choice: Choice) -> [f32; 4] {
+        let position = Position::new(kind, coord);
+        let mut value = self.level(kind, choice.first, position, choice.filter);
         if choice.blend > 0.0 {
             value = lerp(
                 value,
-                self.level(choice.second, position, choice.filter),
+                self.level(kind, choice.second, position, choice.filter),
                 choice.blend,
             );
         }
@@ -404,6 +437,21 @@ impl<'a, S: Store> Reader<'a, S> {
     }
 
     fn sample_lanes<const N: usize>(&self, coords: &[[f32; N]; 3], out: &mut [[f32; N]; 4]) {
+        // Each kind is compiled by itself, so that the lanes need not ask for it.
+        match self.texture.kind {
+            TextureKind::Texture2D => self.lanes_of(TextureKind::Texture2D, coords, out),
+            TextureKind::Cube => self.lanes_of(TextureKind::Cube, coords, out),
+            TextureKind::Volume => self.lanes_of(TextureKind::Volume, coords, out),
+        }
+    }
+
+    #[inline(always)]
+    fn lanes_of<const N: usize>(
+        &self,
+        kind: TextureKind,
+        coords: &[[f32; N]; 3],
+        out: &mut [[f32; N]; 4],
+    ) {
         let Self {
             texture, sampler, ..
         } = *self;
@@ -422,7 +470,7 @@ impl<'a, S: Store> Reader<'a, S> {
             };
             let choice = Choice::new(texture, sampler, lambda);
             for lane in first..end {
-                let value = self.sample(at(lane), choice);
+                let value = self.sample(kind, at(lane), choice);
                 for (channel, value) in out.iter_mut().zip(value) {
                     channel[lane] = value;
                 }
@@ -474,10 +522,10 @@ pub fn sample_at(
     let choice = Choice::new(texture, sampler, lod);
     match &texture.texels {
         Texels::Packed(words) => {
-            Reader::new(PackedStore(words), texture, sampler).sample(coord, choice)
+            Reader::new(PackedStore(words), texture, sampler).sample(texture.kind, coord, choice)
         }
         Texels::Float(texels) => {
-            Reader::new(FloatStore(texels), texture, sampler).sample(coord, choice)
+            Reader::new(FloatStore(texels), texture, sampler).sample(texture.kind, coord, choice)
         }
     }
 }
@@ -514,60 +562,4 @@ pub fn level_of_detail(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4
     };
     // log2 of a root is half the log2.
     0.5 * f32::max(squared_step(1), squared_step(2)).log2() + sampler.lod_bias
-}
-
-/// One texel of a sample.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tap {
-    /// Face 0 to 5 of a cube, else 0.
-    pub face: usize,
-    /// Mip level.
-    pub level: u32,
-    /// Column, row and slice; none where the border colour stands for the texel.
-    pub texel: Option<[u32; 3]>,
-    /// Share of the texel in the sample, above 0; all shares add up to 1.
-    pub weight: f32,
-}
-
-/// What one sample was made of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Footprint {
-    /// The filter within a level that λ chose.
-    pub filter: Filter,
-    /// The face of a cube that the direction meets, else 0.
-    pub face: usize,
-    /// u, v, w in the texture or in the face, before the address mode.
-    pub uvw: [f32; 3],
-    /// The mip levels read and their shares.
-    pub levels: Vec<(u32, f32)>,
-    /// The texels read, larger level first; the same texel may be listed twice where an address mode repeats it.
-    pub taps: Vec<Tap>,
-}
-
-/// Which texels [`sample_at`] with the same arguments reads, and how much of each. For debuggers.
-pub fn footprint(texture: &Texture, sampler: &Sampler, coord: [f32; 3], lod: f32) -> Footprint {
-    let choice = Choice::new(texture, sampler, lod);
-    let position = Position::new(texture.kind, coord);
-    let mut found = Vec::new();
-    for (number, share) in choice.levels() {
-        let level = &texture.levels[number];
-        taps(texture.kind, sampler, level, position, choice.filter).each(|face, texel, weight| {
-            found.push(Tap {
-                face,
-                level: number as u32,
-                texel,
-                weight: weight * share,
-            });
-        });
-    }
-    Footprint {
-        filter: choice.filter,
-        face: position.face,
-        uvw: position.uvw,
-        levels: choice
-            .levels()
-            .map(|(level, share)| (level as u32, share))
-            .collect(),
-        taps: found,
-    }
 }
