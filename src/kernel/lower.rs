@@ -422,7 +422,9 @@ fn is_preset(
         || [Slot::POSITION, Slot::FOG, Slot::POINT_SIZE].contains(&slot);
     match kind {
         ShaderKind::Vertex => output || ((temporary || slot == Slot::ADDRESS) && used),
-        ShaderKind::Pixel => ((temporary || texel || slot == Slot::ROW) && used) || slot == Slot::R0,
+        ShaderKind::Pixel => {
+            ((temporary || texel || slot == Slot::ROW) && used) || slot == Slot::R0
+        }
     }
 }
 

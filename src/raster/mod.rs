@@ -3,7 +3,8 @@
 //!
 //! [`draw`] takes vertices as the vertex shader left them and a [`PixelShader`], of which it only knows what it reads and
 //! what it may do. How either is executed is none of its business. [`cover`] answers for one pixel which primitives reach
-//! it and with which inputs, by the same set-up and interpolation.
+//! it and with which inputs, by the same set-up and interpolation. [`PixelProgram`] and [`shade_vertices`] put kernels in the
+//! places of both.
 //!
 //! Files, in the order of the data: `assemble` (vertices to primitives), `clip`, `setup` and `points_lines` (primitives to
 //! what has edges and planes on the screen), `scan` (which pixels), `interpolate` (pixel inputs), `tiles` (the loop over
@@ -17,6 +18,7 @@ mod merger;
 mod names;
 mod pixel;
 mod points_lines;
+mod programmable;
 mod scan;
 mod setup;
 mod state;
@@ -31,6 +33,7 @@ pub use assemble::{DrawError, Topology};
 pub use cover::{Fragment, cover};
 pub use names::UnknownName;
 pub use pixel::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader};
+pub use programmable::{PixelProgram, RegisterPicture, View, shade_vertices};
 pub use state::{
     AlphaTest, BlendFactor, BlendOp, BlendState, ColorMask, Compare, CullMode, DepthState,
     FillMode, FogDistance, FogMode, FogState, PointState, RenderState, ShadeMode, StencilOp,

@@ -40,7 +40,9 @@ pub fn shade_vertices(
                 }
             }
             machine.run(kernel, environment);
-            (0..live).map(|lane| vertex(kernel, machine, lane)).collect()
+            (0..live)
+                .map(|lane| vertex(kernel, machine, lane))
+                .collect()
         })
     };
     let batches = count.div_ceil(LANES);

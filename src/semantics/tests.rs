@@ -100,7 +100,15 @@ fn exponentials_and_logarithms() {
     // 2.5: 2^2, 0.5, 2^2.5 = 5.656854 without its eight lowest bits, 1
     let full = 2f32.powf(2.5).to_bits() & 0xFFFF_FF00;
     same4(expp(2.5), [4.0, 0.5, f32::from_bits(full), 1.0]);
-    same4(expp(-0.25), [0.5, 0.75, f32::from_bits(2f32.powf(-0.25).to_bits() & 0xFFFF_FF00), 1.0]);
+    same4(
+        expp(-0.25),
+        [
+            0.5,
+            0.75,
+            f32::from_bits(2f32.powf(-0.25).to_bits() & 0xFFFF_FF00),
+            1.0,
+        ],
+    );
     same4(expp(INF), [INF, 0.0, INF, 1.0]);
     same4(expp(-INF), [0.0, 0.0, 0.0, 1.0]);
     same4(expp(NAN), [NAN, NAN, NAN, 1.0]);
@@ -126,8 +134,14 @@ fn dots_sum_from_the_left() {
 #[test]
 fn distance_vector() {
     // d = 4: (–, 16, 16, –) and (–, 1/4, –, 1/4) give (1, 4, 16, 1/4).
-    same4(dst([NAN, 16.0, 16.0, NAN], [NAN, 0.25, NAN, 0.25]), [1.0, 4.0, 16.0, 0.25]);
-    same4(dst([0.0, INF, INF, 0.0], [0.0, 0.0, 0.0, NAN]), [1.0, 0.0, INF, NAN]);
+    same4(
+        dst([NAN, 16.0, 16.0, NAN], [NAN, 0.25, NAN, 0.25]),
+        [1.0, 4.0, 16.0, 0.25],
+    );
+    same4(
+        dst([0.0, INF, INF, 0.0], [0.0, 0.0, 0.0, NAN]),
+        [1.0, 0.0, INF, NAN],
+    );
 }
 
 #[test]
@@ -236,7 +250,14 @@ fn constants_are_clamped() {
 /// The rows that a native driver gave for `mov a0.x`.
 #[test]
 fn the_address_register_takes_the_floor() {
-    for (x, expected) in [(-2.4, -3.0), (-1.6, -2.0), (-0.4, -1.0), (0.4, 0.0), (1.6, 1.0), (2.4, 2.0)] {
+    for (x, expected) in [
+        (-2.4, -3.0),
+        (-1.6, -2.0),
+        (-0.4, -1.0),
+        (0.4, 0.0),
+        (1.6, 1.0),
+        (2.4, 2.0),
+    ] {
         same(address(x), expected);
     }
     same(address(NAN), 0.0);
