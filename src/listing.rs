@@ -1,6 +1,6 @@
 //! A listing on its way through parser and validator.
 
-use crate::diagnostic::{Diagnostic, SourceFile, any_error};
+use crate::diagnostic::{Diagnostic, Rule, SourceFile, any_error};
 use crate::policy::Dialect;
 use crate::program::Program;
 use crate::{syntax, validate};
@@ -24,6 +24,12 @@ impl Checked {
     }
 }
 
+/// Whether a rule looks at what other instructions do: what they write, where they stand, what they are paired with.
+fn judges_the_whole(rule: &Rule) -> bool {
+    let about_order = ["I", "T", "C"].iter().any(|group| rule.id.starts_with(group));
+    about_order || ["S6", "S7", "S8", "S9", "S10"].contains(&rule.id)
+}
+
 /// Parses a listing and validates what could be read of it.
 ///
 /// Where lines were too damaged to be read, rules about the shader as a whole (what is never written, what comes
@@ -32,13 +38,9 @@ pub fn check(file: &SourceFile, dialect: Dialect) -> Checked {
     let parsed = syntax::parse(file);
     let mut diagnostics = parsed.diagnostics;
     if let Some(program) = &parsed.program {
-        let damaged = any_error(&diagnostics);
+        let whole = parsed.damaged.is_empty();
         let found = validate::validate(program, dialect);
-        diagnostics.extend(
-            found
-                .into_iter()
-                .filter(|d| !damaged || !validate::needs_whole_shader(d.rule)),
-        );
+        diagnostics.extend(found.into_iter().filter(|d| whole || !judges_the_whole(d.rule)));
     }
     diagnostics.sort_by_key(|d| (d.span.start, d.span.end));
     Checked {
