@@ -71,6 +71,14 @@ impl<const N: usize> Machine<N> {
             .map(|component| component.get(lane).copied().unwrap_or(0.0))
     }
 
+    /// Loads a value into a register of one lane; lanes that do not exist are left alone.
+    #[inline]
+    pub fn set_lane(&mut self, slot: Slot, lane: usize, value: [f32; 4]) {
+        if lane < N {
+            set_lane(self.register_mut(slot), lane, value);
+        }
+    }
+
     /// Loads the same value into a register of every lane.
     pub fn load(&mut self, slot: Slot, value: [f32; 4]) {
         *self.register_mut(slot) = value.map(|component| [component; N]);
@@ -140,8 +148,8 @@ impl<const N: usize> Machine<N> {
         let before = *register;
         let finish = Finish::new(step.result);
         for c in step.mask.components() {
-            for lane in 0..N {
-                register[c][lane] = finish.apply(result[c][lane]);
+            for (written, computed) in register[c].iter_mut().zip(&result[c]) {
+                *written = finish.apply(*computed);
             }
         }
         observer.wrote(number, &before, register);
@@ -149,10 +157,9 @@ impl<const N: usize> Machine<N> {
 
     fn kill(&mut self, step: &Step, environment: &Environment<'_>) {
         let [s0, ..] = self.sources(step, environment);
-        for lane in 0..N {
+        for (lane, killed) in self.killed.iter_mut().enumerate() {
             // −0 and NaN do not kill.
-            let negative = s0[..3].iter().any(|component| component[lane] < 0.0);
-            self.killed[lane] |= negative;
+            *killed |= s0[..3].iter().any(|component| component[lane] < 0.0);
         }
     }
 
@@ -183,10 +190,7 @@ impl<const N: usize> Machine<N> {
                 for lane in 0..N {
                     let a0 = self.register(Slot::ADDRESS)[0][lane] as i64;
                     let index = usize::try_from(a0 + i64::from(offset)).unwrap_or(usize::MAX);
-                    let value = constant(index);
-                    for c in 0..4 {
-                        gathered[c][lane] = value[c];
-                    }
+                    set_lane(&mut gathered, lane, constant(index));
                 }
                 swizzled(&gathered, swizzle, slots)
             }
@@ -284,8 +288,8 @@ fn swizzled<const N: usize>(register: &Lanes<N>, swizzle: Swizzle, slots: WriteM
 fn each<const N: usize>(mask: WriteMask, f: impl Fn(usize, usize) -> f32) -> Lanes<N> {
     let mut result = [[0.0; N]; 4];
     for component in mask.components() {
-        for lane in 0..N {
-            result[component][lane] = f(component, lane);
+        for (lane, number) in result[component].iter_mut().enumerate() {
+            *number = f(component, lane);
         }
     }
     result
@@ -306,12 +310,16 @@ fn replicate<const N: usize>(f: impl Fn(usize) -> f32) -> Lanes<N> {
 fn vector<const N: usize>(f: impl Fn(usize) -> [f32; 4]) -> Lanes<N> {
     let mut result = [[0.0; N]; 4];
     for lane in 0..N {
-        let value = f(lane);
-        for c in 0..4 {
-            result[c][lane] = value[c];
-        }
+        set_lane(&mut result, lane, f(lane));
     }
     result
+}
+
+#[inline(always)]
+fn set_lane<const N: usize>(register: &mut Lanes<N>, lane: usize, value: [f32; 4]) {
+    for (component, value) in register.iter_mut().zip(value) {
+        component[lane] = value;
+    }
 }
 
 #[inline(always)]

@@ -111,10 +111,6 @@ impl<'a> Primitives<'a> {
         })
     }
 
-    pub(super) fn topology(&self) -> Topology {
-        self.topology
-    }
-
     /// How many primitives there are.
     pub(super) fn len(&self) -> usize {
         let corners = self.indices.map_or(self.vertices, <[u32]>::len);

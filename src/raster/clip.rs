@@ -81,27 +81,28 @@ impl Clipper {
 
     /// What is left of a primitive: its corners in order, none if nothing is. One corner is a point, two are a line, three
     /// a triangle. Positions that are not finite leave nothing.
-    pub(super) fn clip(&self, corners: &[Vec4]) -> Vec<ClipVertex> {
+    pub(super) fn clip(&self, corners: &[Vec4], kept: &mut Vec<ClipVertex>) {
+        kept.clear();
         if corners.iter().any(|corner| !corner.is_finite()) {
-            return Vec::new();
+            return;
         }
         let shares = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let mut kept: Vec<ClipVertex> = corners
-            .iter()
-            .zip(shares)
-            .map(|(corner, shares)| ClipVertex {
-                position: corner.to_array().map(f64::from),
-                shares,
-                original: true,
-            })
-            .collect();
+        kept.extend(
+            corners
+                .iter()
+                .zip(shares)
+                .map(|(corner, shares)| ClipVertex {
+                    position: corner.to_array().map(f64::from),
+                    shares,
+                    original: true,
+                }),
+        );
         for plane in &self.planes {
             let inside = |corner: &ClipVertex| plane.distance(&corner.position) >= 0.0;
             if !kept.iter().all(inside) {
-                kept = cut(&kept, plane);
+                *kept = cut(kept, plane);
             }
         }
-        kept
     }
 }
 
@@ -148,6 +149,12 @@ fn between(from: &ClipVertex, to: &ClipVertex, t: f64) -> ClipVertex {
 mod tests {
     use super::*;
 
+    fn clip(clipper: &Clipper, corners: &[Vec4]) -> Vec<ClipVertex> {
+        let mut kept = Vec::new();
+        clipper.clip(corners, &mut kept);
+        kept
+    }
+
     fn clipper() -> Clipper {
         Clipper::new(&Viewport::full(64, 64), &[])
     }
@@ -159,7 +166,7 @@ mod tests {
             Vec4::new(9.0, 0.0, 0.5, 1.0),
             Vec4::new(0.0, 9.0, 0.5, 1.0),
         ];
-        let kept = clipper().clip(&corners);
+        let kept = clip(&clipper(), &corners);
         assert_eq!(kept.len(), 3);
         assert_eq!(kept[2].shares, [0.0, 1.0]);
         assert!(kept.iter().all(|corner| corner.original));
@@ -168,10 +175,13 @@ mod tests {
     #[test]
     fn a_line_through_the_near_plane_is_cut_where_z_is_zero() {
         // By hand: z from -1 to 3, so a quarter of the way; x = 1, w = 2 + (6 - 2) / 4 = 3.
-        let kept = clipper().clip(&[
-            Vec4::new(0.0, 0.0, -1.0, 2.0),
-            Vec4::new(4.0, 0.0, 3.0, 6.0),
-        ]);
+        let kept = clip(
+            &clipper(),
+            &[
+                Vec4::new(0.0, 0.0, -1.0, 2.0),
+                Vec4::new(4.0, 0.0, 3.0, 6.0),
+            ],
+        );
         assert_eq!(kept.len(), 2);
         assert_eq!(kept[0].position, [1.0, 0.0, 0.0, 3.0]);
         assert_eq!(kept[0].shares, [0.25, 0.0]);
@@ -180,11 +190,14 @@ mod tests {
 
     #[test]
     fn one_corner_behind_the_eye_makes_four() {
-        let kept = clipper().clip(&[
-            Vec4::new(0.0, 1.0, -1.0, -0.5),
-            Vec4::new(1.0, -1.0, 0.5, 1.0),
-            Vec4::new(-1.0, -1.0, 0.5, 1.0),
-        ]);
+        let kept = clip(
+            &clipper(),
+            &[
+                Vec4::new(0.0, 1.0, -1.0, -0.5),
+                Vec4::new(1.0, -1.0, 0.5, 1.0),
+                Vec4::new(-1.0, -1.0, 0.5, 1.0),
+            ],
+        );
         assert_eq!(kept.len(), 4);
         assert!(
             kept.iter()
@@ -195,31 +208,26 @@ mod tests {
     #[test]
     fn nothing_is_left_of_what_is_outside_or_no_number() {
         let behind = [Vec4::new(0.0, 0.0, 2.0, 1.0); 3];
-        assert!(clipper().clip(&behind).is_empty());
-        assert!(clipper().clip(&[Vec4::ZERO; 3]).is_empty());
-        assert!(
-            clipper()
-                .clip(&[Vec4::new(f32::NAN, 0.0, 0.5, 1.0)])
-                .is_empty()
-        );
-        assert!(
-            clipper()
-                .clip(&[Vec4::new(0.0, f32::INFINITY, 0.5, 1.0)])
-                .is_empty()
-        );
+        assert!(clip(&clipper(), &behind).is_empty());
+        assert!(clip(&clipper(), &[Vec4::ZERO; 3]).is_empty());
+        assert!(clip(&clipper(), &[Vec4::new(f32::NAN, 0.0, 0.5, 1.0)]).is_empty());
+        assert!(clip(&clipper(), &[Vec4::new(0.0, f32::INFINITY, 0.5, 1.0)]).is_empty());
     }
 
     #[test]
     fn a_user_plane_cuts_in_clip_space() {
         let plane = Some(Vec4::new(1.0, 0.0, 0.0, 0.0));
         let clipper = Clipper::new(&Viewport::full(64, 64), &[None, plane]);
-        let kept = clipper.clip(&[
-            Vec4::new(-1.0, 0.0, 0.5, 1.0),
-            Vec4::new(1.0, 0.0, 0.5, 1.0),
-        ]);
+        let kept = clip(
+            &clipper,
+            &[
+                Vec4::new(-1.0, 0.0, 0.5, 1.0),
+                Vec4::new(1.0, 0.0, 0.5, 1.0),
+            ],
+        );
         assert_eq!(kept[0].position, [0.0, 0.0, 0.5, 1.0]);
         // A plane of NaN keeps nothing rather than everything.
         let clipper = Clipper::new(&Viewport::full(64, 64), &[Some(Vec4::NAN)]);
-        assert!(clipper.clip(&[Vec4::new(0.0, 0.0, 0.5, 1.0)]).is_empty());
+        assert!(clip(&clipper, &[Vec4::new(0.0, 0.0, 0.5, 1.0)]).is_empty());
     }
 }

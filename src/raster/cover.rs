@@ -3,7 +3,7 @@
 use super::assemble::Primitives;
 use super::interpolate::{Interpolator, depths};
 use super::pixel::{PixelBatch, PixelInputs};
-use super::setup::{Setup, Stage};
+use super::setup::{Room, Setup, Stage};
 use super::{DrawCall, DrawError};
 
 /// One primitive at one pixel.
@@ -42,10 +42,11 @@ pub fn cover<'a>(
     };
     // Beyond what an integer holds there is no target, so nothing will be found.
     let [x, y] = [pixel.0, pixel.1].map(|v| i32::try_from(v).unwrap_or(i32::MAX));
+    let mut room = Room::default();
     let fragments = (0..primitives.len()).flat_map(move |primitive| {
         let vertices = primitives.get(primitive);
         let mut shapes = Vec::new();
-        stage.primitive(primitives.topology(), vertices, &mut shapes);
+        stage.primitive(vertices, &mut room, &mut shapes);
         shapes.retain(|shape| shape.bounds.contains(x, y) && shape.shape.covers(x, y));
         shapes.into_iter().map(move |shape| {
             let (batch, lane) = inputs(&interpolator, &shape, x, y);

@@ -4,9 +4,11 @@
 //! perspective-correct once a pixel: shares over w and 1 over w are linear on the screen. So what is the same at all
 //! vertices is the same, to the bit, at every pixel.
 
+use std::ops::Range;
+
 use glam::Vec4;
 
-use super::pixel::{Attribute, LANES, PixelBatch, PixelInputs, QUADS};
+use super::pixel::{LANES, PixelBatch, PixelInputs, QUADS};
 use super::setup::{Plane, Setup};
 use super::state::ShadeMode;
 use super::{Vertex, fog_unit, unit};
@@ -35,46 +37,46 @@ pub(super) struct Interpolator<'a> {
     pub(super) fog: bool,
 }
 
+/// The shares of the second and of the third vertex at the pixels of each quad.
+type Shares = [[[f32; 4]; QUADS]; 2];
+
 impl Interpolator<'_> {
     /// Completes a batch whose quads have positions and depths. `setup` gives the set-up of each quad.
     pub(super) fn fill<'s>(&self, batch: &mut PixelBatch, setup: impl Fn(usize) -> &'s Setup) {
-        let mut shares = [[0.0; LANES]; 2];
-        for quad in 0..batch.quads.min(QUADS) {
+        let mut shares = [[[0.0; 4]; QUADS]; 2];
+        let quads = batch.quads.min(QUADS);
+        for quad in 0..quads {
             let planes = &setup(quad).planes;
             let (x, y) = (batch.x[4 * quad], batch.y[4 * quad]);
-            let inverse_w = quad_values(&planes.inverse_w, x, y);
-            let [second, third] = [0, 1].map(|which| quad_values(&planes.shares[which], x, y));
-            for i in 0..4 {
-                let inverse_w = if inverse_w[i] > planes.inverse_w_floor {
-                    inverse_w[i]
-                } else {
-                    planes.inverse_w_floor
-                };
-                let w = 1.0 / inverse_w;
-                batch.w[4 * quad + i] = w * planes.w_scale;
-                shares[0][4 * quad + i] = second[i] * w;
-                shares[1][4 * quad + i] = third[i] * w;
+            let w = quad_values(&planes.inverse_w, x, y).map(|inverse_w| {
+                let floor = planes.inverse_w_floor;
+                1.0 / if inverse_w > floor { inverse_w } else { floor }
+            });
+            for (share, plane) in shares.iter_mut().zip(&planes.shares) {
+                let over_w = quad_values(plane, x, y);
+                share[quad] = std::array::from_fn(|i| over_w[i] * w[i]);
             }
+            batch.w.as_chunks_mut().0[quad] = w.map(|w| w * planes.w_scale);
         }
         // Quads of one shape follow each other: fetch its vertices once for all of them.
         let mut first = 0;
-        while first < batch.quads {
+        while first < quads {
             let shape = setup(first);
             let mut end = first + 1;
-            while end < batch.quads && std::ptr::eq(setup(end), shape) {
+            while end < quads && std::ptr::eq(setup(end), shape) {
                 end += 1;
             }
-            self.fill_lanes(batch, shape, &shares, 4 * first..4 * end);
+            self.fill_quads(batch, shape, &shares, first..end);
             first = end;
         }
     }
 
-    fn fill_lanes(
+    fn fill_quads(
         &self,
         batch: &mut PixelBatch,
         setup: &Setup,
-        shares: &[[f32; LANES]; 2],
-        lanes: std::ops::Range<usize>,
+        shares: &Shares,
+        quads: Range<usize>,
     ) {
         let vertex = |index: u32| &self.vertices[index as usize];
         let corners = setup.vertices.map(vertex);
@@ -82,93 +84,58 @@ impl Interpolator<'_> {
             ShadeMode::Gouraud => corners.map(|corner| color(corner).to_array().map(unit)),
             ShadeMode::Flat => [color(vertex(setup.provoking)).to_array().map(unit); 3],
         };
+        // A colour is taken into 0 to 1 again, as pixel shaders read it.
+        let limited =
+            |values: &mut [f32; LANES], ends| mix(values, ends, shares, quads.clone(), unit);
         if self.inputs.diffuse {
-            blend_color(
-                &mut batch.diffuse,
-                &colors(|v| v.diffuse),
-                shares,
-                lanes.clone(),
-            );
+            let ends = colors(|vertex| vertex.diffuse);
+            for (component, values) in batch.diffuse.iter_mut().enumerate() {
+                limited(values, ends.map(|end| end[component]));
+            }
         }
         if self.inputs.specular {
-            blend_color(
-                &mut batch.specular,
-                &colors(|v| v.specular),
-                shares,
-                lanes.clone(),
-            );
+            let ends = colors(|vertex| vertex.specular);
+            for (component, values) in batch.specular.iter_mut().enumerate() {
+                limited(values, ends.map(|end| end[component]));
+            }
+        }
+        if self.fog {
+            limited(&mut batch.fog, corners.map(|corner| fog_unit(corner.fog)));
         }
         for (set, coordinates) in batch.texcoords.iter_mut().enumerate() {
             if self.inputs.texcoords >> set & 1 == 0 {
                 continue;
             }
-            if setup.sprite {
-                for (component, values) in coordinates.iter_mut().enumerate() {
-                    match shares.get(component) {
-                        Some(position) => {
-                            values[lanes.clone()].copy_from_slice(&position[lanes.clone()])
-                        }
-                        None => values[lanes.clone()].fill(0.0),
-                    }
-                }
-            } else {
-                let ends = corners.map(|corner| corner.texcoords[set].to_array());
-                for (component, values) in coordinates.iter_mut().enumerate() {
-                    blend(
-                        values,
-                        ends.map(|end| end[component]),
-                        shares,
-                        lanes.clone(),
-                    );
-                }
+            let ends = corners.map(|corner| corner.texcoords[set].to_array());
+            for (component, values) in coordinates.iter_mut().enumerate() {
+                let ends = match component {
+                    _ if !setup.sprite => ends.map(|end| end[component]),
+                    // In a sprite the shares are the position: 0 to 1 across and down.
+                    0 => [0.0, 1.0, 0.0],
+                    1 => [0.0, 0.0, 1.0],
+                    _ => [0.0; 3],
+                };
+                mix(values, ends, shares, quads.clone(), |value| value);
             }
         }
-        if self.fog {
-            blend(
-                &mut batch.fog,
-                corners.map(|corner| fog_unit(corner.fog)),
-                shares,
-                lanes.clone(),
-            );
-            batch.fog[lanes]
-                .iter_mut()
-                .for_each(|fog| *fog = unit(*fog));
-        }
     }
 }
 
-/// A colour is taken into 0 to 1 again, as pixel shaders read it.
-fn blend_color(
-    color: &mut Attribute,
-    ends: &[[f32; 4]; 3],
-    shares: &[[f32; LANES]; 2],
-    lanes: std::ops::Range<usize>,
-) {
-    for (component, values) in color.iter_mut().enumerate() {
-        blend(
-            values,
-            ends.map(|end| end[component]),
-            shares,
-            lanes.clone(),
-        );
-        values[lanes.clone()]
-            .iter_mut()
-            .for_each(|value| *value = unit(*value));
-    }
-}
-
+/// Values of the vertices to values of the pixels, each passed through `finish`.
 #[inline]
-fn blend(
+fn mix(
     values: &mut [f32; LANES],
     [a0, a1, a2]: [f32; 3],
-    shares: &[[f32; LANES]; 2],
-    lanes: std::ops::Range<usize>,
+    shares: &Shares,
+    quads: Range<usize>,
+    finish: impl Fn(f32) -> f32,
 ) {
     let (to_second, to_third) = (a1 - a0, a2 - a0);
-    let shares = shares[0][lanes.clone()]
+    let shares = shares[0][quads.clone()]
         .iter()
-        .zip(&shares[1][lanes.clone()]);
-    for (value, (second, third)) in values[lanes].iter_mut().zip(shares) {
-        *value = a0 + second * to_second + third * to_third;
+        .zip(&shares[1][quads.clone()]);
+    let values = &mut values.as_chunks_mut::<4>().0[quads];
+    for (value, (second, third)) in values.iter_mut().zip(shares) {
+        *value = std::array::from_fn(|i| finish(a0 + second[i] * to_second + third[i] * to_third));
     }
 }

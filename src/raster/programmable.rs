@@ -31,12 +31,8 @@ pub fn shade_vertices(
         let live = count.saturating_sub(first).min(LANES);
         MACHINE.with_borrow_mut(|machine| {
             for (register, slot) in &inputs {
-                let lanes = machine.register_mut(*slot);
                 for lane in 0..live {
-                    let value = fetch(first + lane, *register);
-                    for c in 0..4 {
-                        lanes[c][lane] = value[c];
-                    }
+                    machine.set_lane(*slot, lane, fetch(first + lane, *register));
                 }
             }
             machine.run(kernel, environment);
@@ -187,8 +183,8 @@ impl PixelShader for PixelProgram<'_> {
                     machine.run_observed(self.kernel, self.environment, most, &mut Nothing);
                     for lane in 0..LANES {
                         let color = picture.color(machine.lane(picture.slot, lane));
-                        for c in 0..4 {
-                            out.color[c][lane] = color[c];
+                        for (component, value) in out.color.iter_mut().zip(color) {
+                            component[lane] = value;
                         }
                     }
                 }

@@ -113,6 +113,13 @@ pub(super) struct Setup {
     pub(super) planes: Planes,
 }
 
+/// Memory for the corners of one primitive, used again for the next.
+#[derive(Default)]
+pub(super) struct Room {
+    kept: Vec<ClipVertex>,
+    corners: Vec<Corner>,
+}
+
 /// The part of a draw call that turns primitives into shapes.
 pub(super) struct Stage<'a> {
     pub(super) call: DrawCall<'a>,
@@ -152,33 +159,22 @@ impl<'a> Stage<'a> {
     }
 
     /// Adds the shapes of a primitive, in drawing order.
-    pub(super) fn primitive(
-        &self,
-        topology: Topology,
-        vertices: [u32; 3],
-        shapes: &mut Vec<Setup>,
-    ) {
-        let corner = |i: usize| self.vertex(vertices[i]).position;
-        match topology {
-            Topology::PointList => {
-                let kept = self.clipper.clip(&[corner(0)]);
-                shapes.extend(
-                    kept.first().and_then(|kept| {
-                        points_lines::point(self, vertices, &self.to_screen(kept))
-                    }),
-                );
-            }
-            Topology::LineList | Topology::LineStrip => {
-                let kept = self.clipper.clip(&[corner(0), corner(1)]);
-                if let [from, to] = &kept[..] {
-                    let ends = [self.to_screen(from), self.to_screen(to)];
-                    shapes.extend(points_lines::line(self, vertices, &ends));
-                }
-            }
-            Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
-                let kept = self.clipper.clip(&[corner(0), corner(1), corner(2)]);
-                self.polygon(vertices, &kept, shapes);
-            }
+    pub(super) fn primitive(&self, vertices: [u32; 3], room: &mut Room, shapes: &mut Vec<Setup>) {
+        let Room { kept, corners } = room;
+        let positions = vertices.map(|index| self.vertex(index).position);
+        let vertices_of_primitive = match self.call.topology {
+            Topology::PointList => 1,
+            Topology::LineList | Topology::LineStrip => 2,
+            Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => 3,
+        };
+        self.clipper.clip(&positions[..vertices_of_primitive], kept);
+        corners.clear();
+        corners.extend(kept.iter().map(|corner| self.to_screen(corner)));
+        match (vertices_of_primitive, &corners[..]) {
+            (1, [corner]) => shapes.extend(points_lines::point(self, vertices, corner)),
+            (2, [from, to]) => shapes.extend(points_lines::line(self, vertices, &[*from, *to])),
+            (3, [_, _, _, ..]) => self.polygon(vertices, kept, corners, shapes),
+            _ => {}
         }
     }
 
@@ -187,11 +183,13 @@ impl<'a> Stage<'a> {
     }
 
     /// What is left of a triangle, as area, edges or corners.
-    fn polygon(&self, vertices: [u32; 3], kept: &[ClipVertex], shapes: &mut Vec<Setup>) {
-        if kept.len() < 3 {
-            return;
-        }
-        let corners: Vec<Corner> = kept.iter().map(|corner| self.to_screen(corner)).collect();
+    fn polygon(
+        &self,
+        vertices: [u32; 3],
+        kept: &[ClipVertex],
+        corners: &[Corner],
+        shapes: &mut Vec<Setup>,
+    ) {
         let fan = |i: usize| [&corners[0], &corners[i], &corners[i + 1]];
         let area: i64 = (1..corners.len() - 1).map(|i| doubled_area(fan(i))).sum();
         let culled = match self.call.state.cull {
@@ -265,7 +263,10 @@ impl<'a> Stage<'a> {
         let viewport = &self.viewport;
         let snap = |v: f64| {
             let v = if v.is_nan() { 0.0 } else { v };
-            (v.clamp(-2.0 * GUARD, 2.0 * GUARD) * SUBPIXELS as f64 + 0.5).floor() as i64
+            // To the nearest subpixel. Made positive first, so that cutting off the fraction rounds downwards.
+            let shift = 4.0 * GUARD * SUBPIXELS as f64;
+            (v.clamp(-2.0 * GUARD, 2.0 * GUARD) * SUBPIXELS as f64 + 0.5 + shift) as i64
+                - shift as i64
         };
         let (min_z, max_z) = (f64::from(viewport.min_z), f64::from(viewport.max_z));
         Corner {

@@ -10,7 +10,7 @@ use super::interpolate::{Interpolator, depths};
 use super::merger::{DepthTiming, depth_only, depth_stencil, merge};
 use super::pixel::{PixelBatch, PixelResult, PixelShader, QUADS};
 use super::scan::Bounds;
-use super::setup::{Setup, Stage};
+use super::setup::{Room, Setup, Stage};
 use super::state::FogMode;
 use super::target::{ColorFormat, TILE, Target, Tile};
 use super::{DrawCall, DrawError};
@@ -116,10 +116,10 @@ fn set_up(
 ) -> (Vec<Setup>, u64) {
     let piece = |first: usize| {
         let mut shapes = Vec::with_capacity(PIECE);
-        let mut drawn = 0;
+        let (mut room, mut drawn) = (Room::default(), 0);
         for i in first..range.end.min(first + PIECE) {
             let before = shapes.len();
-            stage.primitive(primitives.topology(), primitives.get(i), &mut shapes);
+            stage.primitive(primitives.get(i), &mut room, &mut shapes);
             drawn += u64::from(shapes.len() > before);
         }
         (shapes, drawn)

@@ -103,8 +103,8 @@ pub fn log(a: f32) -> f32 {
 /// x clamped to 0…1, NaN to 0.
 #[inline(always)]
 pub fn saturate(x: f32) -> f32 {
-    // `max` of the standard library returns the number where one side is NaN.
-    x.max(0.0).min(1.0)
+    let x = if x > 0.0 { x } else { 0.0 };
+    if x < 1.0 { x } else { 1.0 }
 }
 
 /// x / y as the coordinate modifiers and the depth instructions divide: 1 for a zero divisor.
