@@ -1,3 +1,136 @@
-//! The scene room: so far the texture generators.
+//! Scenes: TOML files that say what is drawn with which listings, and their rendering.
+//!
+//! The format is described in `docs/scene.md`. [`Scene::load`] reads a scene file, and through a [`Resolver`] the files
+//! that it names, into meshes, textures and kernels; every problem is reported at once, each with its place.
+//! [`Scene::passes`] gives what there is to draw as plain data, for any back end; [`Scene::render`] draws it on the CPU.
+//!
+//! Files, in the order of the data: `section` and `error` (tables key by key, problems with their places), `resolve` and
+//! `files` (bytes), `load` (the whole), `transform`, `mesh`, `texture`, `shader`, `constants`, `state`, `draw`, `target`
+//! (its parts), `prepare` (passes), `render`; `generate` makes pictures by formula.
 
+mod constants;
+mod draw;
+mod error;
+mod files;
 pub mod generate;
+mod load;
+mod mesh;
+mod prepare;
+mod render;
+mod resolve;
+mod section;
+mod shader;
+mod state;
+mod target;
+mod texture;
+mod transform;
+
+#[cfg(test)]
+mod tests;
+
+use glam::Vec3;
+
+use crate::diagnostic::{Diagnostic, SourceMap};
+use crate::policy::Dialect;
+use crate::texture::Texture;
+
+pub use draw::Declaration;
+pub use error::{SceneError, rules};
+pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
+pub use load::MAX_ENTRIES;
+pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
+pub use render::{Progress, RenderError, RenderOptions, Show};
+pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};
+pub use shader::Shader;
+pub use target::MAX_TARGET_SIDE;
+
+/// How a scene file is read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoadOptions {
+    /// By whose rules the listings are judged.
+    pub dialect: Dialect,
+}
+
+/// A scene, ready to be rendered: nothing of it lies in files any more.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    size: [u32; 2],
+    clear: [f32; 4],
+    time: f32,
+    light_direction: Vec3,
+    camera: transform::Camera,
+    meshes: Vec<crate::mesh::Mesh>,
+    textures: Vec<TextureEntry>,
+    targets: Vec<target::Target>,
+    /// The targets by number, each after those that it reads.
+    order: Vec<usize>,
+    draws: Vec<draw::Draw>,
+    /// The draws of the picture by number, in order.
+    picture: Vec<usize>,
+    sources: SourceMap,
+    warnings: Vec<Diagnostic>,
+}
+
+/// A texture of a scene.
+#[derive(Clone, Debug)]
+pub struct TextureEntry {
+    /// Its name in the scene file.
+    pub name: String,
+    /// Its texels, or where they come from.
+    pub source: TextureSource,
+}
+
+/// Where the texels of a texture come from.
+#[derive(Clone, Debug)]
+pub enum TextureSource {
+    /// They are here.
+    Loaded(Texture),
+    /// They are what the passes of this render target draw.
+    Target(usize),
+}
+
+impl Scene {
+    /// Width and height of the picture that the scene file asks for, in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The textures, by the numbers that [`PreparedStage::texture`] holds.
+    pub fn textures(&self) -> &[TextureEntry] {
+        &self.textures
+    }
+
+    /// How many faces a render target has and whether mip levels are made of what was drawn: `None` if there is no such
+    /// target.
+    pub fn target(&self, number: usize) -> Option<TargetInfo<'_>> {
+        self.targets.get(number).map(|target| TargetInfo {
+            name: &target.name,
+            size: target.size,
+            faces: target.faces(),
+            mipmaps: target.mipmaps,
+        })
+    }
+
+    /// The scene file and the listings, for the places of [`Self::warnings`] and of programs.
+    pub fn sources(&self) -> &SourceMap {
+        &self.sources
+    }
+
+    /// What is allowed and yet worth telling, of the scene file and of its listings.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+}
+
+/// A render target, as a back end must make it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TargetInfo<'a> {
+    /// Its name in the scene file.
+    pub name: &'a str,
+    /// Width and height of a face in pixels.
+    pub size: [u32; 2],
+    /// 1, or 6 for a cube.
+    pub faces: usize,
+    /// Whether mip levels are made of what was drawn.
+    pub mipmaps: bool,
+}

@@ -1,0 +1,317 @@
+//! From the bytes of a scene file to a [`Scene`].
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::draw::{self, Draw, Known, Names};
+use super::error::{Problems, SceneError, rules};
+use super::files::Files;
+use super::resolve::Resolver;
+use super::section::{At, Node, Section};
+use super::target::{self, Target, draw_list};
+use super::texture::{self, Source};
+use super::transform::Camera;
+use super::{LoadOptions, Scene, TextureEntry, TextureSource, mesh};
+use crate::diagnostic::SourceMap;
+use crate::raster;
+
+/// Most meshes, textures, targets or draws of a scene, each.
+pub const MAX_ENTRIES: usize = 1024;
+
+/// A text that TOML brackets nest deeper in than this is refused before it is parsed.
+const MAX_NESTING: usize = 64;
+
+impl Scene {
+    /// Reads a scene and everything that it names.
+    ///
+    /// `name` is what messages call the scene file; `resolver` gives the files whose paths it writes.
+    ///
+    /// # Errors
+    /// [`SceneError`] with every problem that was found, in the scene file and in its listings.
+    pub fn load(
+        name: &str,
+        bytes: &[u8],
+        resolver: &dyn Resolver,
+        options: &LoadOptions,
+    ) -> Result<Self, Box<SceneError>> {
+        let mut files = Files::new(resolver);
+        let mut problems = Problems::default();
+        let (mut sources, mut scene) = (SourceMap::new(), None);
+        match files.sources.add(name, bytes) {
+            Err(error) => {
+                // The name alone, so that the message has a place.
+                if let Ok(file) = sources.add(name, Vec::new()) {
+                    problems.error(&rules::LIMIT, file.span(), error.to_string());
+                }
+            }
+            Ok(file) => {
+                let span = file.span();
+                problems = Problems::new(span.start);
+                scene = match std::str::from_utf8(bytes) {
+                    Ok(text) => read(text, options, &mut files, &mut problems),
+                    Err(error) => {
+                        let at = error.valid_up_to();
+                        let place = problems.span(at..at + 1);
+                        problems.error(&rules::SYNTAX, place, "this is not UTF-8");
+                        None
+                    }
+                };
+                sources = files.sources;
+            }
+        }
+        let refused = problems.any_error();
+        let diagnostics = problems.into_sorted();
+        match scene {
+            Some(mut scene) if !refused => {
+                scene.sources = sources;
+                scene.warnings = diagnostics;
+                Ok(scene)
+            }
+            _ => Err(Box::new(SceneError {
+                sources,
+                diagnostics,
+            })),
+        }
+    }
+}
+
+/// How deep brackets nest at most, those in texts and comments included.
+fn nesting(text: &str) -> usize {
+    let (mut depth, mut most) = (0_usize, 0);
+    for byte in text.bytes() {
+        match byte {
+            b'[' | b'{' => depth += 1,
+            b']' | b'}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        most = most.max(depth);
+    }
+    most
+}
+
+fn read(
+    text: &str,
+    options: &LoadOptions,
+    files: &mut Files<'_>,
+    problems: &mut Problems,
+) -> Option<Scene> {
+    let whole = problems.span(0..0);
+    if nesting(text) > MAX_NESTING {
+        let message = format!("brackets nest more than {MAX_NESTING} deep");
+        problems.error(&rules::LIMIT, whole, message);
+        return None;
+    }
+    let (table, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        let place = error.span().map_or(whole, |range| problems.span(range));
+        problems.error(&rules::SYNTAX, place, error.message());
+    }
+    if problems.any_error() {
+        return None;
+    }
+    let mut root = Section::new("the scene file", table.into_inner(), whole, problems);
+    let size = size(&mut root, problems);
+    let clear = root.or("clear", [0.0, 0.0, 0.0, 1.0], problems);
+    let time = root.or("time", 0.0, problems);
+    let light_direction: [f32; 3] = root.or("light_direction", [0.0, -1.0, 0.0], problems);
+    let camera = root
+        .table("camera", problems)
+        .map_or_else(Camera::default, |table| Camera::read(table, problems));
+
+    let (mesh_names, mesh_sections) = entries(&mut root, "meshes", problems);
+    let meshes: Vec<_> = mesh_sections
+        .into_iter()
+        .map(|section| mesh::read(section?, files, problems))
+        .collect();
+    let (texture_names, texture_sections) = entries(&mut root, "textures", problems);
+    let textures: Vec<_> = texture_sections
+        .into_iter()
+        .map(|section| texture::read(section?, files, problems))
+        .collect();
+    let (target_names, target_sections) = entries(&mut root, "targets", problems);
+    let (draw_names, draw_sections) = draw_entries(&mut root, problems);
+    let known = Known {
+        meshes: &mesh_names,
+        textures: &texture_names,
+        targets: &target_names,
+        dialect: options.dialect,
+    };
+    let draws: Vec<Option<Draw>> = draw_sections
+        .into_iter()
+        .map(|(name, section)| draw::read(name, section, &known, files, problems))
+        .collect();
+    let mut target_titles: Vec<_> = target_names.iter().collect();
+    target_titles.sort_by_key(|(_, number)| **number);
+    let targets: Vec<Option<Target>> = target_titles
+        .into_iter()
+        .zip(target_sections)
+        .map(|((name, _), section)| {
+            target::read(name.clone(), section?, &draw_names, files, problems)
+        })
+        .collect();
+    let picture = match root.node("draws") {
+        Some(node) => draw_list(node, &draw_names, problems),
+        None => (0..draws.len()).collect(),
+    };
+    root.finish(problems);
+
+    let sources: Vec<Option<TextureSource>> = textures
+        .into_iter()
+        .map(|source| match source? {
+            Source::Loaded(texture) => Some(TextureSource::Loaded(texture)),
+            Source::Target(name) => {
+                let target = draw::find(&target_names, "render target", &name, problems)?;
+                Some(TextureSource::Target(target))
+            }
+        })
+        .collect();
+    // Numbers are good only if nothing has been left out.
+    let meshes = all(meshes);
+    let (draws, targets, sources) = (all(draws), all(targets), all(sources));
+    let (Some(meshes), Some(draws), Some(targets), Some(sources)) = (meshes, draws, targets, sources)
+    else {
+        return None;
+    };
+    let mut names: Vec<_> = texture_names.into_iter().collect();
+    names.sort_by_key(|(_, number)| *number);
+    let textures = names
+        .into_iter()
+        .zip(sources)
+        .map(|((name, _), source)| TextureEntry { name, source })
+        .collect();
+    let mut scene = Scene {
+        size: size?,
+        clear,
+        time,
+        light_direction: light_direction.into(),
+        camera,
+        meshes,
+        textures,
+        targets,
+        order: Vec::new(),
+        draws,
+        picture,
+        sources: SourceMap::new(),
+        warnings: Vec::new(),
+    };
+    let reads = |number: usize| scene.targets_read_by(&scene.targets[number].draws);
+    scene.order = target::order(&scene.targets, reads, problems);
+    scene.check_meanings(problems);
+    Some(scene)
+}
+
+/// Everything, unless something is missing.
+fn all<T>(list: Vec<Option<T>>) -> Option<Vec<T>> {
+    list.into_iter().collect()
+}
+
+fn size(root: &mut Section<'_>, problems: &mut Problems) -> Option<[u32; 2]> {
+    let Some(At { value, span }) = root.at::<[u32; 2]>("size", problems) else {
+        return Some([640, 480]);
+    };
+    let [width, height] = value;
+    if value.iter().all(|side| (1..=raster::Target::MAX_SIDE).contains(side))
+        && u64::from(width) * u64::from(height) <= raster::Target::MAX_PIXELS
+    {
+        return Some(value);
+    }
+    let message = format!(
+        "a picture of {width} by {height} pixels: each side is 1 to {}, and {} pixels are the most",
+        raster::Target::MAX_SIDE,
+        raster::Target::MAX_PIXELS
+    );
+    problems.error(&rules::VALUE, span, message);
+    None
+}
+
+/// The tables of a table whose keys are names, in the order of the file.
+fn entries<'i>(
+    root: &mut Section<'i>,
+    key: &'static str,
+    problems: &mut Problems,
+) -> (Names, Vec<Option<Section<'i>>>) {
+    let mut names = Names::new();
+    let mut sections = Vec::new();
+    let Some(mut table) = root.table(key, problems) else {
+        return (names, sections);
+    };
+    for node in table.rest() {
+        if too_many(names.len(), key, &node, problems) {
+            break;
+        }
+        names.insert(node.key.clone(), sections.len());
+        let title = format!("[{key}.{}]", node.key);
+        sections.push(node.into_section(title, problems));
+    }
+    (names, sections)
+}
+
+fn too_many(count: usize, key: &str, node: &Node<'_>, problems: &mut Problems) -> bool {
+    if count < MAX_ENTRIES {
+        return false;
+    }
+    let message = format!("`{key}` has more than {MAX_ENTRIES} entries");
+    problems.error(&rules::LIMIT, node.key_span, message);
+    true
+}
+
+/// The tables of `[[draw]]` with their names; a draw without one is called by its number, from 1.
+fn draw_entries<'i>(
+    root: &mut Section<'i>,
+    problems: &mut Problems,
+) -> (Names, Vec<(String, Section<'i>)>) {
+    let mut names = Names::new();
+    let mut sections: Vec<(String, Section<'i>)> = Vec::new();
+    let Some(node) = root.node("draw") else {
+        root.missing("at least one `[[draw]]`", problems);
+        return (names, sections);
+    };
+    if !matches!(node.value.get_ref(), DeValue::Array(_)) {
+        node.refuse("a list of tables, `[[draw]]`", problems);
+        return (names, sections);
+    }
+    let Node {
+        key,
+        key_span,
+        value,
+    } = node;
+    let DeValue::Array(list) = value.into_inner() else {
+        return (names, sections);
+    };
+    for (value, number) in list.into_iter().zip(1..) {
+        let node = Node {
+            key: key.clone(),
+            key_span: first_line(&value, key_span, problems),
+            value,
+        };
+        if too_many(sections.len(), "draw", &node, problems) {
+            break;
+        }
+        let Some(mut section) = node.into_section(format!("draw {number}"), problems) else {
+            continue;
+        };
+        let given = section.at::<String>("name", problems);
+        let span = given.as_ref().map_or(section.span, |at| at.span);
+        let name = given.map_or_else(|| number.to_string(), |at| at.value);
+        section.title = format!("draw `{name}`");
+        if names.insert(name.clone(), sections.len()).is_some() {
+            let message = format!("there are two draws called `{name}`");
+            problems.error(&rules::TWICE, span, message);
+        }
+        sections.push((name, section));
+    }
+    (names, sections)
+}
+
+/// The place of an entry of a list of tables: its header, without the rest of its lines.
+fn first_line(
+    value: &Spanned<DeValue<'_>>,
+    key_span: crate::diagnostic::Span,
+    problems: &Problems,
+) -> crate::diagnostic::Span {
+    let range = value.span();
+    if range.is_empty() {
+        return key_span;
+    }
+    problems.span(range)
+}

@@ -1,0 +1,249 @@
+//! Tables of a scene file, read key by key, so that every problem of a table is found and each has its place.
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+
+use super::error::{Problems, advice, advice_from, rules};
+use crate::diagnostic::Span;
+
+/// A value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct At<T> {
+    pub(super) value: T,
+    pub(super) span: Span,
+}
+
+/// A value of the file as TOML has it, with the key that it stands under.
+#[derive(Clone, Debug)]
+pub(super) struct Node<'i> {
+    pub(super) key: String,
+    pub(super) key_span: Span,
+    pub(super) value: Spanned<DeValue<'i>>,
+}
+
+/// A table whose keys are taken out one by one. What is left at the end is unknown.
+#[derive(Debug)]
+pub(super) struct Section<'i> {
+    /// The table as messages call it, such as `[camera]`.
+    pub(super) title: String,
+    /// Where a key that is missing is reported.
+    pub(super) span: Span,
+    nodes: Vec<Node<'i>>,
+    asked: Vec<&'static str>,
+}
+
+/// What a kind of TOML value is called.
+fn kind(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+impl<'i> Section<'i> {
+    /// A table; `span` is what a missing key is reported at.
+    pub(super) fn new(
+        title: impl Into<String>,
+        table: DeTable<'i>,
+        span: Span,
+        problems: &Problems,
+    ) -> Self {
+        let mut nodes: Vec<_> = table
+            .into_iter()
+            .map(|(key, value)| Node {
+                key_span: problems.span(key.span()),
+                key: key.into_inner().into_owned(),
+                value,
+            })
+            .collect();
+        // The order of the file.
+        nodes.sort_by_key(|node| node.key_span);
+        Self {
+            title: title.into(),
+            span,
+            nodes,
+            asked: Vec::new(),
+        }
+    }
+
+    /// Takes a value out as it stands in the file.
+    pub(super) fn node(&mut self, key: &'static str) -> Option<Node<'i>> {
+        self.asked.push(key);
+        let at = self.nodes.iter().position(|node| node.key == key)?;
+        Some(self.nodes.remove(at))
+    }
+
+    /// Whether a key is still there.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.nodes.iter().any(|node| node.key == key)
+    }
+
+    /// Takes out everything that is left, for tables whose keys are names.
+    pub(super) fn rest(&mut self) -> Vec<Node<'i>> {
+        std::mem::take(&mut self.nodes)
+    }
+
+    /// Puts back what a part of the table did not want.
+    pub(super) fn keep(&mut self, nodes: Vec<Node<'i>>) {
+        self.nodes.extend(nodes);
+    }
+
+    /// Takes a value out, with its place.
+    pub(super) fn at<T: DeserializeOwned>(
+        &mut self,
+        key: &'static str,
+        problems: &mut Problems,
+    ) -> Option<At<T>> {
+        self.node(key)?.read(problems)
+    }
+
+    /// Takes a value out.
+    pub(super) fn get<T: DeserializeOwned>(
+        &mut self,
+        key: &'static str,
+        problems: &mut Problems,
+    ) -> Option<T> {
+        self.at(key, problems).map(|at| at.value)
+    }
+
+    /// Takes a value out, or gives a default.
+    pub(super) fn or<T: DeserializeOwned>(
+        &mut self,
+        key: &'static str,
+        default: T,
+        problems: &mut Problems,
+    ) -> T {
+        self.get(key, problems).unwrap_or(default)
+    }
+
+    /// Takes out a number that must lie in a range.
+    pub(super) fn ranged<T>(
+        &mut self,
+        key: &'static str,
+        range: std::ops::RangeInclusive<T>,
+        default: T,
+        problems: &mut Problems,
+    ) -> T
+    where
+        T: DeserializeOwned + PartialOrd + std::fmt::Display,
+    {
+        let Some(At { value, span }) = self.at::<T>(key, problems) else {
+            return default;
+        };
+        if range.contains(&value) {
+            return value;
+        }
+        let message = format!(
+            "`{key}` is {value}; it must be {} to {}",
+            range.start(),
+            range.end()
+        );
+        problems.error(&rules::VALUE, span, message);
+        default
+    }
+
+    /// Takes out a text that is one of a set of names.
+    pub(super) fn named<T>(
+        &mut self,
+        key: &'static str,
+        default: T,
+        problems: &mut Problems,
+    ) -> T
+    where
+        T: std::str::FromStr,
+        T::Err: std::fmt::Display,
+    {
+        let Some(At { value, span }) = self.at::<String>(key, problems) else {
+            return default;
+        };
+        value.parse().unwrap_or_else(|error: T::Err| {
+            problems.error(&rules::VALUE, span, format!("`{key}`: {error}"));
+            default
+        })
+    }
+
+    /// Takes out a table within this one.
+    pub(super) fn table(
+        &mut self,
+        key: &'static str,
+        problems: &mut Problems,
+    ) -> Option<Section<'i>> {
+        let node = self.node(key)?;
+        let title = self.inner_title(key);
+        node.into_section(title, problems)
+    }
+
+    /// What a table within this one is called.
+    pub(super) fn inner_title(&self, key: &str) -> String {
+        match self.title.strip_suffix(']') {
+            Some(outer) => format!("{outer}.{key}]"),
+            None => format!("[{key}]"),
+        }
+    }
+
+    /// Reports that something must be there.
+    pub(super) fn missing(&self, what: &str, problems: &mut Problems) {
+        let message = format!("{} needs {what}", self.title);
+        problems.error(&rules::MISSING, self.span, message);
+    }
+
+    /// Reports every key that nobody asked for.
+    pub(super) fn finish(self, problems: &mut Problems) {
+        for node in &self.nodes {
+            let message = format!("{} has no key `{}`", self.title, node.key);
+            let help = advice(&node.key, self.asked.iter().copied());
+            problems.error_with(&rules::KEY, node.key_span, message, help);
+        }
+    }
+}
+
+impl<'i> Node<'i> {
+    /// Where the value stands.
+    pub(super) fn span(&self, problems: &Problems) -> Span {
+        problems.span(self.value.span())
+    }
+
+    /// The value as a type of ours.
+    pub(super) fn read<T: DeserializeOwned>(self, problems: &mut Problems) -> Option<At<T>> {
+        let span = self.span(problems);
+        match T::deserialize(ValueDeserializer::from(self.value)) {
+            Ok(value) => Some(At { value, span }),
+            Err(error) => {
+                let place = error.span().map_or(span, |range| problems.span(range));
+                let message = format!("`{}`: {}", self.key, error.message());
+                let help = advice_from(error.message());
+                problems.error_with(&rules::VALUE, place, message, help);
+                None
+            }
+        }
+    }
+
+    /// The value as a table.
+    pub(super) fn into_section(
+        self,
+        title: impl Into<String>,
+        problems: &mut Problems,
+    ) -> Option<Section<'i>> {
+        let span = self.span(problems);
+        match self.value.into_inner() {
+            DeValue::Table(table) => Some(Section::new(title, table, self.key_span, problems)),
+            other => {
+                let message = format!("`{}` must be a table, not {}", self.key, kind(&other));
+                problems.error(&rules::VALUE, span, message);
+                None
+            }
+        }
+    }
+
+    /// Reports that the value is of none of the kinds that it may be.
+    pub(super) fn refuse(&self, expected: &str, problems: &mut Problems) {
+        let (key, found) = (&self.key, kind(self.value.get_ref()));
+        let message = format!("`{key}` must be {expected}, not {found}");
+        problems.error(&rules::VALUE, self.span(problems), message);
+    }
+}

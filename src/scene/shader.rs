@@ -1,0 +1,154 @@
+//! The listings of a draw.
+
+use std::sync::Arc;
+
+use super::error::{Problems, rules};
+use super::files::Files;
+use super::section::{At, Section};
+use crate::diagnostic::{Diagnostic, Span, any_error};
+use crate::isa::ShaderKind;
+use crate::kernel::{Kernel, Options, lower};
+use crate::policy::Dialect;
+use crate::program::Program;
+use crate::syntax;
+use crate::validate::validate;
+
+/// A shader of a draw: what was written and what runs.
+#[derive(Clone, Debug)]
+pub struct Shader {
+    /// The listing; its spans lie in the source map of the scene.
+    pub program: Arc<Program>,
+    /// The same, ready to run, for the texture stages of this draw.
+    pub kernel: Kernel,
+}
+
+/// The keys of one kind of shader in `[[draw]]`.
+pub(super) struct Keys {
+    kind: ShaderKind,
+    file: &'static str,
+    text: &'static str,
+    name: &'static str,
+}
+
+/// `vs` or `vs_text`.
+pub(super) const VERTEX: Keys = Keys {
+    kind: ShaderKind::Vertex,
+    file: "vs",
+    text: "vs_text",
+    name: "vertex shader",
+};
+
+/// `ps` or `ps_text`.
+pub(super) const PIXEL: Keys = Keys {
+    kind: ShaderKind::Pixel,
+    file: "ps",
+    text: "ps_text",
+    name: "pixel shader",
+};
+
+/// A listing of the right kind, and where the scene file names it.
+pub(super) type Named = At<Arc<Program>>;
+
+/// Reads, parses and judges a listing. What is wrong with it is reported at its own places, once for each file.
+pub(super) fn read(
+    section: &mut Section<'_>,
+    keys: &Keys,
+    dialect: Dialect,
+    files: &mut Files<'_>,
+    problems: &mut Problems,
+) -> Option<Named> {
+    if !section.has(keys.file) && !section.has(keys.text) {
+        let what = format!("a {}, `{}` or `{}`", keys.name, keys.file, keys.text);
+        section.missing(&what, problems);
+    }
+    let file = section.at::<String>(keys.file, problems);
+    let text = section.at::<String>(keys.text, problems);
+    let (span, program) = match (file, text) {
+        (Some(file), None) => (file.span, from_file(&file, dialect, files, problems)?),
+        (None, Some(text)) => {
+            // The places in a text are counted from its first line, so it needs a name of its own.
+            let name = format!("{}, `{}`", section.title, keys.text);
+            let bytes = text.value.into_bytes();
+            (text.span, program(name, bytes, text.span, dialect, files, problems)?)
+        }
+        (Some(_), Some(text)) => {
+            let message = format!("`{}` already gives the {}", keys.file, keys.name);
+            problems.error(&rules::TWICE, text.span, message);
+            return None;
+        }
+        (None, None) => return None,
+    };
+    if program.version.kind() == keys.kind {
+        let value = program;
+        return Some(At { value, span });
+    }
+    let message = format!(
+        "this is a {} listing, where a {} must stand",
+        program.version, keys.name
+    );
+    problems.error(&rules::SHADER, span, message);
+    None
+}
+
+fn from_file(
+    path: &At<String>,
+    dialect: Dialect,
+    files: &mut Files<'_>,
+    problems: &mut Problems,
+) -> Option<Arc<Program>> {
+    if let Some(known) = files.programs.get(&path.value) {
+        return known.clone();
+    }
+    let name = files.resolver.display_name(&path.value);
+    let found = files
+        .read(path, problems)
+        .and_then(|bytes| program(name, bytes, path.span, dialect, files, problems));
+    files.programs.insert(path.value.clone(), found.clone());
+    found
+}
+
+fn program(
+    name: String,
+    bytes: Vec<u8>,
+    span: Span,
+    dialect: Dialect,
+    files: &mut Files<'_>,
+    problems: &mut Problems,
+) -> Option<Arc<Program>> {
+    let parsed = match files.sources.add(name, bytes) {
+        Ok(file) => syntax::parse(file),
+        Err(error) => {
+            problems.error(&rules::LIMIT, span, error.to_string());
+            return None;
+        }
+    };
+    let mut diagnostics = parsed.diagnostics;
+    let readable = !any_error(&diagnostics);
+    // What a damaged listing lacks would only be reported a second time, by what follows from it.
+    if readable && let Some(program) = &parsed.program {
+        diagnostics.extend(validate(program, dialect));
+    }
+    let usable = !any_error(&diagnostics);
+    problems.list.extend(diagnostics);
+    parsed.program.filter(|_| usable).map(Arc::new)
+}
+
+/// Lowers a listing for the stages of a draw.
+pub(super) fn lowered(
+    named: &Named,
+    options: &Options,
+    problems: &mut Problems,
+) -> Option<Shader> {
+    match lower(&named.value, options) {
+        Ok(kernel) => Some(Shader {
+            program: Arc::clone(&named.value),
+            kernel,
+        }),
+        Err(error) => {
+            let place = error.span;
+            let diagnostic = Diagnostic::error(&rules::SHADER, place, error.message);
+            problems.list.push(diagnostic);
+            None
+        }
+    }
+}

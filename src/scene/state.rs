@@ -1,0 +1,226 @@
+//! Render states and texture stage states of a scene file.
+
+use glam::Vec4;
+use toml::de::DeValue;
+
+use super::error::{Problems, rules};
+use super::section::{At, Section};
+use crate::raster::{
+    AlphaTest, BlendState, ColorMask, DepthState, FogState, PointState, RenderState, StencilState,
+};
+use crate::semantics::BumpState;
+use crate::texture::{Filter, Sampler};
+
+/// Reads `[draw.state]`. The distance that table fog uses is not a state of the file: the projection decides it.
+pub(super) fn state(mut section: Section<'_>, problems: &mut Problems) -> RenderState {
+    let s = &mut section;
+    let default = RenderState::default();
+    let (depth, alpha, blend) = (
+        DepthState::default(),
+        AlphaTest::default(),
+        BlendState::default(),
+    );
+    let point = PointState::default();
+    let state = RenderState {
+        cull: s.named("cull", default.cull, problems),
+        shade: s.named("shade", default.shade, problems),
+        fill: s.named("fill", default.fill, problems),
+        depth: DepthState {
+            enable: s.or("z_enable", depth.enable, problems),
+            write: s.or("z_write", depth.write, problems),
+            func: s.named("z_func", depth.func, problems),
+            bias: s.ranged("z_bias", 0..=16, depth.bias, problems),
+        },
+        alpha_test: AlphaTest {
+            enable: s.or("alpha_test", alpha.enable, problems),
+            reference: s.or("alpha_ref", alpha.reference, problems),
+            func: s.named("alpha_func", alpha.func, problems),
+        },
+        blend: BlendState {
+            enable: s.or("alpha_blend", blend.enable, problems),
+            source: s.named("src_blend", blend.source, problems),
+            destination: s.named("dest_blend", blend.destination, problems),
+            op: s.named("blend_op", blend.op, problems),
+        },
+        color_mask: color_mask(s, problems),
+        fog: s
+            .table("fog", problems)
+            .map_or_else(FogState::default, |table| fog(table, problems)),
+        stencil: s
+            .table("stencil", problems)
+            .map_or_else(StencilState::default, |table| stencil(table, problems)),
+        point: PointState {
+            size: s.or("point_size", point.size, problems),
+            min: s.or("point_size_min", point.min, problems),
+            max: s.or("point_size_max", point.max, problems),
+            sprite: s.or("point_sprite", point.sprite, problems),
+        },
+        clip_planes: clip_planes(s, problems),
+    };
+    section.finish(problems);
+    state
+}
+
+/// `color_write`: letters of `rgba`, or the bits of Direct3D.
+fn color_mask(section: &mut Section<'_>, problems: &mut Problems) -> ColorMask {
+    let Some(node) = section.node("color_write") else {
+        return ColorMask::ALL;
+    };
+    if let DeValue::String(letters) = node.value.get_ref() {
+        let mut bits = 0;
+        for letter in letters.chars() {
+            match "rgba".find(letter) {
+                Some(bit) => bits |= 1 << bit,
+                None => {
+                    let message = format!("`color_write`: `{letter}` is none of r, g, b, a");
+                    problems.error(&rules::VALUE, node.span(problems), message);
+                    break;
+                }
+            }
+        }
+        return ColorMask::from_bits(bits);
+    }
+    let Some(At { value, span }) = node.read::<u8>(problems) else {
+        return ColorMask::ALL;
+    };
+    if value > 0xf {
+        let message = format!("`color_write` is {value}; the bits of the four channels are 0 to 15");
+        problems.error(&rules::VALUE, span, message);
+    }
+    ColorMask::from_bits(value)
+}
+
+fn fog(mut s: Section<'_>, problems: &mut Problems) -> FogState {
+    let default = FogState::default();
+    let state = FogState {
+        enable: s.or("enable", true, problems),
+        color: s.or("color", default.color, problems),
+        table: s.named("table", default.table, problems),
+        distance: default.distance,
+        start: s.or("start", default.start, problems),
+        end: s.or("end", default.end, problems),
+        density: s.or("density", default.density, problems),
+    };
+    // D3DRS_FOGVERTEXMODE is a state of the fixed-function vertex pipeline: a vertex shader's oFog replaces it.
+    if let Some(At { span, .. }) = s.at::<String>("vertex", problems) {
+        let message = "`vertex` has no effect: the vertex shader says the fog of its vertices";
+        problems.warning(&rules::IDLE, span, message);
+    }
+    s.finish(problems);
+    state
+}
+
+fn stencil(mut s: Section<'_>, problems: &mut Problems) -> StencilState {
+    let default = StencilState::default();
+    let state = StencilState {
+        enable: s.or("enable", true, problems),
+        func: s.named("func", default.func, problems),
+        reference: s.or("ref", default.reference, problems),
+        mask: s.or("mask", default.mask, problems),
+        write_mask: s.or("write_mask", default.write_mask, problems),
+        fail: s.named("fail", default.fail, problems),
+        depth_fail: s.named("z_fail", default.depth_fail, problems),
+        pass: s.named("pass", default.pass, problems),
+    };
+    s.finish(problems);
+    state
+}
+
+fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Vec4>; 6] {
+    let mut planes = [None; 6];
+    let Some(At { value, span }) = section.at::<Vec<[f32; 4]>>("clip_planes", problems) else {
+        return planes;
+    };
+    if value.len() > planes.len() {
+        let message = format!("`clip_planes` has {} planes; there are six", value.len());
+        problems.error(&rules::VALUE, span, message);
+    }
+    for (plane, given) in planes.iter_mut().zip(value) {
+        *plane = Some(Vec4::from_array(given));
+    }
+    planes
+}
+
+/// Reads how a texture is sampled: the address, filter and level keys of a stage.
+pub(super) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
+    let default = Sampler::default();
+    let filter = s.node("filter").map(|node| filter_name(node, problems));
+    let both = filter.unwrap_or_default();
+    let mut axis_filter = |key, s: &mut Section<'_>| match s.node(key) {
+        Some(node) => filter_name(node, problems),
+        None => both,
+    };
+    let (min, mag) = (axis_filter("min", s), axis_filter("mag", s));
+    let address = match s.node("address") {
+        Some(node) if matches!(node.value.get_ref(), DeValue::Array(_)) => {
+            let mut modes = default.address;
+            if let Some(At { value, span }) = node.read::<Vec<String>>(problems) {
+                if value.is_empty() || value.len() > 3 {
+                    let message = format!("`address` has {} modes; there are up to three axes", value.len());
+                    problems.error(&rules::VALUE, span, message);
+                }
+                for (mode, name) in modes.iter_mut().zip(value) {
+                    *mode = parse(&name, "address", span, problems).unwrap_or(*mode);
+                }
+            }
+            modes
+        }
+        Some(node) => node.read::<String>(problems).map_or(default.address, |at| {
+            let mode = parse(&at.value, "address", at.span, problems);
+            [mode.unwrap_or_default(); 3]
+        }),
+        None => default.address,
+    };
+    Sampler {
+        address,
+        mag,
+        min,
+        mip: s.named("mip", default.mip, problems),
+        lod_bias: s.or("lod_bias", default.lod_bias, problems),
+        max_mip_level: s.or("max_mip_level", default.max_mip_level, problems),
+        border: s.or("border", default.border, problems),
+        seamless: s.or("seamless", default.seamless, problems),
+    }
+}
+
+fn parse<T>(
+    name: &str,
+    key: &str,
+    span: crate::diagnostic::Span,
+    problems: &mut Problems,
+) -> Option<T>
+where
+    T: std::str::FromStr,
+    T::Err: std::fmt::Display,
+{
+    match name.parse() {
+        Ok(value) => Some(value),
+        Err(error) => {
+            let error: T::Err = error;
+            problems.error(&rules::VALUE, span, format!("`{key}`: {error}"));
+            None
+        }
+    }
+}
+
+/// A filter; `anisotropic` is linear, as on devices that cannot do better.
+fn filter_name(node: super::section::Node<'_>, problems: &mut Problems) -> Filter {
+    let key = node.key.clone();
+    let Some(At { value, span }) = node.read::<String>(problems) else {
+        return Filter::default();
+    };
+    if value.eq_ignore_ascii_case("anisotropic") {
+        return Filter::Linear;
+    }
+    parse(&value, &key, span, problems).unwrap_or_default()
+}
+
+/// Reads the bump mapping keys of a stage.
+pub(super) fn bump(s: &mut Section<'_>, problems: &mut Problems) -> BumpState {
+    let default = BumpState::default();
+    BumpState {
+        matrix: s.or("bump_mat", default.matrix, problems),
+        luminance_scale: s.or("lum_scale", default.luminance_scale, problems),
+        luminance_offset: s.or("lum_offset", default.luminance_offset, problems),
+    }
+}
