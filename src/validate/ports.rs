@@ -1,0 +1,143 @@
+//! R1 to R11: how many registers of a file an instruction may read.
+
+use super::laws::{Code, Report};
+use super::listing::{Line, Listing, Read, enumerate};
+use crate::diagnostic::Span;
+use crate::isa::{RegisterFile, Version};
+use crate::program::Register;
+
+/// How many registers of a file both halves of a pair may read together (Direct3D 8.1: instruction pairing).
+const PORTS_OF_A_PAIR: usize = 3;
+
+pub(super) fn check(listing: &Listing, report: &mut Report) {
+    for group in listing.groups() {
+        let mut halves_fit = true;
+        for line in group {
+            halves_fit &= instruction_fits(listing, line, report);
+        }
+        if let ([first, second], true) = (group, halves_fit) {
+            pair_fits(listing, first, second, report);
+        }
+    }
+}
+
+/// The registers of a file among reads, each once, with the place where it was first read.
+fn distinct<'a>(
+    reads: impl Iterator<Item = &'a Read>,
+    file: RegisterFile,
+) -> Vec<(Register, Span)> {
+    let mut found: Vec<(Register, Span)> = Vec::new();
+    for read in reads.filter(|r| r.register.file == file) {
+        if found.iter().all(|(register, _)| *register != read.register) {
+            found.push((read.register, read.span));
+        }
+    }
+    found
+}
+
+fn names(registers: &[(Register, Span)]) -> String {
+    let names: Vec<String> = registers.iter().map(|(r, _)| r.to_string()).collect();
+    enumerate(&names, "and")
+}
+
+/// R1, R2, R4, R6, R7. Returns whether all files are within their ports.
+fn instruction_fits(listing: &Listing, line: &Line, report: &mut Report) -> bool {
+    let reads = line.reads();
+    let rows = line.form.map_or(1, |form| form.rows.max(1));
+    let mut fits = true;
+    for file in RegisterFile::all() {
+        let ports = file.read_ports(listing.version) as usize;
+        let Some(code) = code(file, listing.version) else {
+            continue;
+        };
+        // Each row of a matrix is an instruction of its own, which reads row 0 operands and its own matrix row.
+        let over = (0..rows).find_map(|row| {
+            let matrix_row = |r: &&Read| r.row == row || is_vector_of_matrix(line, r);
+            let found = distinct(reads.iter().filter(matrix_row), file);
+            (found.len() > ports).then_some(found)
+        });
+        let Some(over) = over else { continue };
+        fits = false;
+        let span = over.get(ports).map_or(line.instruction.span, |o| o.1);
+        let row = if rows > 1 { "a row of " } else { "" };
+        let prefix = file.row().prefix;
+        report.breach(
+            code,
+            span,
+            format!(
+                "{row}{} reads {}; in {} an instruction reads {} {prefix}#",
+                line.mnemonic(),
+                names(&over),
+                listing.version,
+                number(ports),
+            ),
+            help(listing, file),
+        );
+    }
+    fits
+}
+
+/// Whether a read is the vector that every row of a matrix macro multiplies.
+fn is_vector_of_matrix(line: &Line, read: &Read) -> bool {
+    let vector = line.instruction.sources.first();
+    vector.is_some_and(|s| s.span == read.span && s.register == read.register)
+}
+
+fn number(n: usize) -> String {
+    match n {
+        1 => "one".to_string(),
+        2 => "two".to_string(),
+        3 => "three".to_string(),
+        n => n.to_string(),
+    }
+}
+
+fn help(listing: &Listing, file: RegisterFile) -> String {
+    match (file, listing.version) {
+        (RegisterFile::Texture, Version::Ps10) => {
+            "mov one of them to r# first; ps.1.1 reads two t#".to_string()
+        }
+        (RegisterFile::Texture, Version::Ps11) => {
+            "mov one of them to r# first; ps.1.2 reads three t#".to_string()
+        }
+        (RegisterFile::Input, Version::Ps10) => {
+            "mov one of them to r# first; ps.1.1 reads two v#".to_string()
+        }
+        _ => "mov one of them to r# first".to_string(),
+    }
+}
+
+/// The rule that holds for a file; `None` where the number of sources or registers keeps it by itself.
+fn code(file: RegisterFile, version: Version) -> Option<Code> {
+    use RegisterFile::{Const, Input, Texture};
+    Some(match (file, version) {
+        (Const, Version::Vs10 | Version::Vs11) => Code::R1,
+        (Input, Version::Vs10 | Version::Vs11) => Code::R2,
+        (Const, _) => Code::R4,
+        (Texture | Input, Version::Ps10) => Code::R6,
+        (Texture, Version::Ps11) => Code::R7,
+        _ => return None,
+    })
+}
+
+/// R11.
+fn pair_fits(listing: &Listing, first: &Line, second: &Line, report: &mut Report) {
+    let (a, b) = (first.reads(), second.reads());
+    for file in RegisterFile::all() {
+        let found = distinct(a.iter().chain(&b), file);
+        let Some((_, span)) = found.get(PORTS_OF_A_PAIR) else {
+            continue;
+        };
+        report.breach(
+            Code::R11,
+            *span,
+            format!(
+                "this pair reads {}; {} reads three {}# in a pair",
+                names(&found),
+                listing.version,
+                file.row().prefix
+            ),
+            "leave the + out, so that each instruction reads by itself",
+        );
+    }
+}

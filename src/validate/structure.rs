@@ -1,0 +1,209 @@
+//! S2 to S14: which instructions stand where, and what a shader has to write.
+
+use super::laws::{Code, Report};
+use super::listing::{Listing, Phase, version_names};
+use crate::isa::register::OPOS;
+use crate::isa::{Opcode, RegisterFile, Version, WriteMask};
+use crate::program::{Destination, Register, Statement};
+
+pub(super) fn check(listing: &Listing, report: &mut Report) {
+    instructions_exist(listing, report);
+    definitions_come_first(listing, report);
+    textures_come_first(listing, report);
+    if !listing.is_pixel() {
+        position_is_written(listing, report);
+        coordinates_have_no_gaps(listing, report);
+    }
+}
+
+/// S14, S5.
+fn instructions_exist(listing: &Listing, report: &mut Report) {
+    for line in listing.lines.iter().filter(|l| l.form.is_none()) {
+        let opcode = line.instruction.opcode;
+        let code = if opcode == Opcode::Phase {
+            Code::S5
+        } else {
+            Code::S14
+        };
+        let known = version_names(opcode.versions());
+        let help = match instead_of(opcode, listing.version) {
+            Some(instead) => format!("{known} have it; {} has {instead}", listing.version),
+            None if opcode.versions().iter().count() == 1 => format!("only {known} has it"),
+            None => format!("{known} have it"),
+        };
+        report.breach(
+            code,
+            line.instruction.mnemonic_span,
+            format!("{} has no {}", listing.version, opcode.mnemonic()),
+            help,
+        );
+    }
+}
+
+/// The instruction that does the same in this version.
+fn instead_of(opcode: Opcode, version: Version) -> Option<&'static str> {
+    let instead = match opcode {
+        Opcode::TexLd => Opcode::Tex,
+        Opcode::Tex => Opcode::TexLd,
+        Opcode::TexCrd => Opcode::TexCoord,
+        Opcode::TexCoord => Opcode::TexCrd,
+        Opcode::TexDepth => Opcode::TexM3x2Depth,
+        Opcode::TexM3x2Depth => Opcode::TexDepth,
+        Opcode::Cmp => Opcode::Cnd,
+        Opcode::Slt | Opcode::Sge => Opcode::Cmp,
+        Opcode::TexBem => Opcode::Bem,
+        Opcode::Bem => Opcode::TexBem,
+        _ => return None,
+    };
+    instead.form(version).map(|_| instead.mnemonic())
+}
+
+/// S2. Of definitions that stand together the first is named.
+fn definitions_come_first(listing: &Listing, report: &mut Report) {
+    let mut instruction = None;
+    let mut told = false;
+    for statement in &listing.program.statements {
+        match statement {
+            Statement::Instruction(i) => {
+                instruction = instruction.or(Some(i.opcode.mnemonic()));
+                told = false;
+            }
+            Statement::Def(def) => {
+                if let (Some(first), false) = (instruction, told) {
+                    report.breach(
+                        Code::S2,
+                        def.span,
+                        format!(
+                            "the definition of {} stands behind the first instruction, {first}",
+                            def.register
+                        ),
+                        "move it up, right behind the version",
+                    );
+                    told = true;
+                }
+            }
+            Statement::Dcl(_) => {}
+        }
+    }
+}
+
+/// S3, S4. Of texture instructions that stand together the first is named.
+fn textures_come_first(listing: &Listing, report: &mut Report) {
+    let mut arithmetic = None;
+    let mut told = false;
+    for line in &listing.lines {
+        if line.instruction.opcode == Opcode::Phase {
+            (arithmetic, told) = (None, false);
+        } else if line.is_arithmetic() {
+            arithmetic = arithmetic.or(Some(line.mnemonic()));
+            told = false;
+        } else if let (true, Some(first), false) = (line.is_texture(), arithmetic, told) {
+            told = true;
+            let (code, help) = match (listing.version, listing.has_phase, line.phase) {
+                (Version::Ps14, false, _) => (Code::S4, "move it up, or put phase before it"),
+                (Version::Ps14, true, Phase::First) => {
+                    (Code::S4, "move it up, or down behind phase")
+                }
+                (Version::Ps14, true, Phase::Second) => (Code::S4, "move it up to phase"),
+                _ => (
+                    Code::S3,
+                    "move it up; of the pixel shaders only ps.1.4 reads textures again, after phase",
+                ),
+            };
+            report.breach(
+                code,
+                line.instruction.mnemonic_span,
+                format!("{} stands behind the arithmetic {first}", line.mnemonic()),
+                help,
+            );
+        }
+    }
+}
+
+/// Destinations in a file, with the components that get a value.
+fn writes_to<'a>(
+    listing: &'a Listing,
+    file: RegisterFile,
+) -> impl Iterator<Item = (Destination, WriteMask)> + 'a {
+    listing.lines.iter().filter_map(move |line| {
+        let (register, mask) = line.writes()?;
+        let destination = line.instruction.destination?;
+        (register.file == file).then_some((destination, mask))
+    })
+}
+
+/// S8, S9.
+fn position_is_written(listing: &Listing, report: &mut Report) {
+    let mut written = WriteMask::NONE;
+    let mut last = None;
+    for (destination, mask) in writes_to(listing, RegisterFile::RastOut) {
+        if destination.register.index == OPOS {
+            written = written.or(mask);
+            last = Some(destination);
+        }
+    }
+    let position = Register::new(RegisterFile::RastOut, OPOS);
+    if listing.hides_write(position, listing.program.span.at_end()) {
+        return;
+    }
+    let Some(last) = last else {
+        report.breach(
+            Code::S8,
+            listing.program.version_span,
+            "this shader never writes oPos, the position of the vertex",
+            "such as: m4x4 oPos, v0, c0",
+        );
+        return;
+    };
+    let missing = WriteMask::ALL.without(written);
+    if !missing.is_empty() {
+        report.breach(
+            Code::S9,
+            last.span,
+            format!("oPos{} is never written", listing.mask(missing)),
+            "a component that is not written is 0 here",
+        );
+    }
+}
+
+/// S10.
+fn coordinates_have_no_gaps(listing: &Listing, report: &mut Report) {
+    let file = RegisterFile::TexCrdOut;
+    let mut sets: Vec<(Option<Destination>, WriteMask)> = Vec::new();
+    sets.resize_with(file.count(listing.version) as usize, || {
+        (None, WriteMask::NONE)
+    });
+    for (destination, mask) in writes_to(listing, file) {
+        if let Some(set) = sets.get_mut(destination.register.index as usize) {
+            *set = (set.0.or(Some(destination)), set.1.or(mask));
+        }
+    }
+    let mut gap = None;
+    for (i, (first, mask)) in sets.into_iter().enumerate() {
+        let Some(first) = first else {
+            let register = Register::new(file, i as u32);
+            if !listing.hides_write(register, listing.program.span.at_end()) {
+                gap = gap.or(Some(i));
+            }
+            continue;
+        };
+        if let Some(gap) = gap {
+            report.breach(
+                Code::S10,
+                first.span,
+                format!("oT{i} is written, oT{gap} before it is not"),
+                format!("write oT{gap} too, or use the lower number"),
+            );
+            return;
+        }
+        // A prefix of xyzw is one less than a power of two.
+        if !(mask.bits() + 1).is_power_of_two() {
+            report.breach(
+                Code::S10,
+                first.span,
+                format!("of oT{i} only {} is written", listing.mask(mask)),
+                "write .x, .xy, .xyz or all four components",
+            );
+        }
+    }
+}
