@@ -1,6 +1,6 @@
 //! A listing on its way through parser and validator.
 
-use crate::diagnostic::{Diagnostic, Rule, SourceFile, any_error};
+use crate::diagnostic::{Diagnostic, SourceFile, any_error};
 use crate::policy::Dialect;
 use crate::program::Program;
 use crate::{syntax, validate};
@@ -24,23 +24,18 @@ impl Checked {
     }
 }
 
-/// Whether a rule looks at what other instructions do: what they write, where they stand, what they are paired with.
-fn judges_the_whole(rule: &Rule) -> bool {
-    let about_order = ["I", "T", "C"].iter().any(|group| rule.id.starts_with(group));
-    about_order || ["S6", "S7", "S8", "S9", "S10"].contains(&rule.id)
-}
-
 /// Parses a listing and validates what could be read of it.
 ///
-/// Where lines were too damaged to be read, rules about the shader as a whole (what is never written, what comes
-/// before what) are not judged: what the lost lines did is not known.
+/// What follows only from lines that could not be read (a register that they seem to write is not written, say) is
+/// not told again.
 pub fn check(file: &SourceFile, dialect: Dialect) -> Checked {
     let parsed = syntax::parse(file);
     let mut diagnostics = parsed.diagnostics;
     if let Some(program) = &parsed.program {
-        let whole = parsed.damaged.is_empty();
-        let found = validate::validate(program, dialect);
-        diagnostics.extend(found.into_iter().filter(|d| whole || !judges_the_whole(d.rule)));
+        let unread: Vec<_> = (parsed.damaged.iter())
+            .map(|damage| (damage.span, damage.destination))
+            .collect();
+        diagnostics.extend(validate::validate_around(program, dialect, &unread));
     }
     diagnostics.sort_by_key(|d| (d.span.start, d.span.end));
     Checked {

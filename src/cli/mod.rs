@@ -7,8 +7,8 @@ mod check;
 mod diagnostics;
 mod eval;
 mod files;
-//mod run;
-//mod show;
+mod run;
+mod show;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use std::fmt;
@@ -34,7 +34,7 @@ struct Arguments {
 enum Command {
     Check(check::Arguments),
     Eval(eval::Arguments),
-    //Run
+    Run(run::Arguments),
 }
 
 /// How results are written.
@@ -73,7 +73,7 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
-//RUN
+        Command::Run(arguments) => run::run(&arguments),
     };
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;
