@@ -6,7 +6,7 @@ pub mod diagnostic;
 pub mod exec;
 pub mod isa;
 pub mod kernel;
-// pub mod listing; // once syntax and validate are merged
+pub mod listing;
 pub mod mesh;
 pub mod policy;
 pub mod program;

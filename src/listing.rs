@@ -26,19 +26,16 @@ impl Checked {
 
 /// Parses a listing and validates what could be read of it.
 ///
-/// Where lines were too damaged to be read, rules about the shader as a whole (what is never written, what comes
-/// before what) are not judged: what the lost lines did is not known.
+/// What follows only from lines that could not be read (a register that they seem to write is not written, say) is
+/// not told again.
 pub fn check(file: &SourceFile, dialect: Dialect) -> Checked {
     let parsed = syntax::parse(file);
     let mut diagnostics = parsed.diagnostics;
     if let Some(program) = &parsed.program {
-        let damaged = any_error(&diagnostics);
-        let found = validate::validate(program, dialect);
-        diagnostics.extend(
-            found
-                .into_iter()
-                .filter(|d| !damaged || !validate::needs_whole_shader(d.rule)),
-        );
+        let unread: Vec<_> = (parsed.damaged.iter())
+            .map(|damage| (damage.span, damage.destination))
+            .collect();
+        diagnostics.extend(validate::validate_around(program, dialect, &unread));
     }
     diagnostics.sort_by_key(|d| (d.span.start, d.span.end));
     Checked {

@@ -4,8 +4,10 @@ use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_
 use serde_json::json;
 use std::path::Path;
 use texcrd::diagnostic::{Diagnostic, SourceMap, any_error};
+use texcrd::isa::ShaderKind;
 use texcrd::policy::Dialect;
 use texcrd::program::Program;
+use texcrd::validate::{Statistics, Usage};
 use texcrd::{listing, syntax, validate};
 
 /// Says everything that is wrong with listings.
@@ -78,7 +80,7 @@ fn fix(path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
         let file = sources
             .add(files::name(path), bytes.clone())
             .map_err(|e| Failure::Input(e.to_string()))?;
-        let (fixed, count) = syntax::apply_fixes(&bytes, &syntax::parse(file).diagnostics);
+        let (fixed, count) = syntax::apply_fixes(file, &syntax::parse(file).diagnostics);
         if count == 0 {
             break;
         }
@@ -118,12 +120,78 @@ fn report(arguments: &Arguments, sources: &SourceMap, found: &[Diagnostic]) -> O
 
 fn statistics(arguments: &Arguments, name: &str, program: &Program) -> Outcome {
     let statistics = validate::statistics(program);
-    if arguments.format == Format::Json {
-        return print_json(&json!({ "file": name, "stats": statistics_json(&statistics) }));
+    match arguments.format {
+        Format::Json => print_json(&json!({ "file": name, "stats": to_json(&statistics) })),
+        Format::Text => print(&to_text(&statistics)),
     }
-    print(&statistics.to_string())
 }
 
-fn statistics_json(_statistics: &validate::Statistics) -> serde_json::Value {
-    json!({})
+fn to_text(statistics: &Statistics) -> String {
+    let of = |usage: Usage| format!("{} of {}", usage.used, usage.allowed);
+    let list = |numbers: &[u32]| -> String {
+        let numbers: Vec<_> = numbers.iter().map(u32::to_string).collect();
+        numbers.join(", ")
+    };
+    let mut text = format!("{}\n", statistics.version);
+    for (i, phase) in statistics.phases.iter().enumerate() {
+        let label = match (statistics.version.kind(), statistics.phases.len()) {
+            (ShaderKind::Pixel, 2..) => format!("phase {}", i + 1),
+            _ => "slots".to_string(),
+        };
+        let amount = match statistics.version.kind() {
+            ShaderKind::Vertex => of(phase.arithmetic),
+            ShaderKind::Pixel => format!(
+                "{} texture, {} arithmetic",
+                of(phase.texture),
+                of(phase.arithmetic)
+            ),
+        };
+        text.push_str(&format!("  {label:<13} {amount}\n"));
+    }
+    for usage in statistics.files.iter().filter(|f| !f.numbers.is_empty()) {
+        let names: Vec<_> = (usage.numbers.iter())
+            .map(|n| usage.file.register_name(*n))
+            .collect();
+        let prefix = usage.file.row().prefix;
+        text.push_str(&format!(
+            "  {:<13} {} of {}: {}\n",
+            format!("{prefix}#"),
+            names.len(),
+            usage.allowed,
+            names.join(" ")
+        ));
+    }
+    if statistics.relative {
+        text.push_str("  c[a0.x + n]   any constant may be read\n");
+    }
+    for (label, numbers) in [
+        ("stages", &statistics.stages),
+        ("coordinates", &statistics.coordinate_sets),
+    ] {
+        if !numbers.is_empty() {
+            text.push_str(&format!("  {label:<13} {}\n", list(numbers)));
+        }
+    }
+    text
+}
+
+fn to_json(statistics: &Statistics) -> serde_json::Value {
+    let of = |usage: Usage| json!({ "used": usage.used, "allowed": usage.allowed });
+    let phases: Vec<_> = (statistics.phases.iter())
+        .map(|p| json!({ "arithmetic": of(p.arithmetic), "texture": of(p.texture) }))
+        .collect();
+    let files: serde_json::Map<_, _> = (statistics.files.iter())
+        .map(|f| {
+            let usage = json!({ "used": f.numbers, "allowed": f.allowed });
+            (f.file.row().prefix.to_string(), usage)
+        })
+        .collect();
+    json!({
+        "version": statistics.version.name(),
+        "phases": phases,
+        "registers": files,
+        "relative": statistics.relative,
+        "stages": statistics.stages,
+        "coordinate_sets": statistics.coordinate_sets,
+    })
 }

@@ -3,7 +3,7 @@
 use super::texture_ops;
 use super::{Kernel, LowerError, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::isa::{
-    Class, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind, SourceModifier,
+    Class, FileSet, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind, SourceModifier,
     Swizzle, Version, WriteMask,
 };
 use crate::program::{Destination, Instruction, Program, Register, Source};
@@ -37,12 +37,17 @@ pub enum Projection {
 /// [`LowerError`] for the first instruction that has no meaning: one that the version does not have, with operands
 /// that it does not take, or with registers that do not exist.
 pub fn lower(program: &Program, options: &Options) -> Result<Kernel, LowerError> {
-    let mut lowering = Lowering::new(program.version, options);
+    // vs.1.0 is vs.1.1 without the address register; whether a shader may use it is the validator's business.
+    let version = match program.version {
+        Version::Vs10 => Version::Vs11,
+        version => version,
+    };
+    let mut lowering = Lowering::new(version, options);
     for def in program.definitions() {
         if def.register.file != RegisterFile::Const || def.register.relative {
             return Err(LowerError::new(def.register_span, "def defines a constant"));
         }
-        constant(program.version, def.register)
+        constant(version, def.register)
             .map_err(|message| LowerError::new(def.register_span, message))?;
         lowering.definitions.push((def.register.index, def.value));
     }
@@ -171,7 +176,8 @@ impl<'a> Lowering<'a> {
         let destination = instruction
             .destination
             .ok_or_else(|| format!("{} needs a destination", opcode.mnemonic()))?;
-        if destination.register.relative || !shape.files.contains(destination.register.file) {
+        if destination.register.relative || !may_name(form, shape.files, destination.register.file)
+        {
             return Err(format!(
                 "{} cannot have {} as destination",
                 opcode.mnemonic(),
@@ -179,7 +185,7 @@ impl<'a> Lowering<'a> {
             ));
         }
         for (source, shape) in instruction.sources.iter().zip(form.sources) {
-            if !shape.files.contains(source.register.file) {
+            if !may_name(form, shape.files, source.register.file) {
                 return Err(format!(
                     "{} cannot read {} there",
                     opcode.mnemonic(),
@@ -387,6 +393,12 @@ impl<'a> Lowering<'a> {
             read,
         }
     }
+}
+
+/// Whether an operand has a meaning. Arithmetic on the coordinates of `ps.1.4` is against the rules and clear all the
+/// same.
+fn may_name(form: &Form, files: FileSet, file: RegisterFile) -> bool {
+    files.contains(file) || (form.class == Class::Arithmetic && file == RegisterFile::Texture)
 }
 
 /// The components that a step reads of its source `i`.

@@ -54,6 +54,16 @@ impl Kernel {
         self.read[slot.index()]
     }
 
+    /// The constants that the shader defines or names with a fixed number.
+    pub fn constants(&self) -> impl Iterator<Item = u32> {
+        let defined = self.definitions.iter().map(|(index, _)| *index);
+        let named = self.steps.iter().flat_map(|s| &s.sources);
+        defined.chain(named.filter_map(|operand| match operand.place {
+            Place::Constant(index) => Some(index),
+            _ => None,
+        }))
+    }
+
     /// Whether a pixel of this shader may be discarded by `texkill`.
     pub fn kills(&self) -> bool {
         self.steps.iter().any(|s| s.op == Op::Kill)

@@ -1,8 +1,8 @@
 //! I1 to I5, T13, S6, S7: which component of which temporary holds a value, line by line.
 
 use super::laws::{Code, Report};
-use super::listing::{Line, Listing, Phase};
-use crate::isa::{Opcode, RegisterFile, SourceModifier, WriteMask};
+use super::listing::{Line, Listing, Phase, Read};
+use crate::isa::{Opcode, RegisterFile, WriteMask};
 use crate::program::Register;
 
 /// What is known of one `r#`.
@@ -91,7 +91,10 @@ fn reads(
     report: &mut Report,
 ) {
     for read in line.reads() {
-        if read.register.file != RegisterFile::Temp || !listing.exists(read.register) {
+        if read.register.file != RegisterFile::Temp
+            || !listing.exists(read.register)
+            || listing.hides_write(read.register, read.span)
+        {
             continue;
         }
         let Some(temporary) = temporaries.get_mut(read.register.index as usize) else {
@@ -106,12 +109,7 @@ fn reads(
 }
 
 /// I1, I2, I3, I5. Each component is named once.
-fn component_read(
-    listing: &Listing,
-    read: &super::listing::Read,
-    temporary: &mut Temporary,
-    report: &mut Report,
-) {
+fn component_read(listing: &Listing, read: &Read, temporary: &mut Temporary, report: &mut Report) {
     let register = read.register;
     let mut missing = read
         .components
@@ -183,7 +181,7 @@ fn unwritten(
 fn dependent_read(
     listing: &Listing,
     line: &Line,
-    read: &super::listing::Read,
+    read: &Read,
     temporary: &mut Temporary,
     report: &mut Report,
 ) {
@@ -191,7 +189,7 @@ fn dependent_read(
         return; // O11 speaks of the first phase.
     }
     let register = read.register;
-    let missing = needed(read).without(temporary.before_phase);
+    let missing = WriteMask::XYZ.without(temporary.before_phase);
     let (message, help) = if temporary.sampled_after_phase {
         (
             format!("texld reads {register}, which was sampled in the same phase"),
@@ -215,14 +213,6 @@ fn dependent_read(
     };
     temporary.told_of_texld = true;
     report.breach(Code::T13, read.span, message, help);
-}
-
-/// The components that a dependent read needs, whatever its selector repeats.
-fn needed(read: &super::listing::Read) -> WriteMask {
-    match read.modifier {
-        SourceModifier::Dz => WriteMask::XYZ,
-        _ => read.components,
-    }
 }
 
 fn writes(line: &Line, temporaries: &mut [Temporary; TEMPORARIES]) {
@@ -258,6 +248,10 @@ fn writes(line: &Line, temporaries: &mut [Temporary; TEMPORARIES]) {
 /// S6, S7.
 fn result_is_written(listing: &Listing, r0: &Temporary, report: &mut Report) {
     let span = listing.program.version_span;
+    let result = Register::new(RegisterFile::Temp, 0);
+    if listing.hides_write(result, listing.program.span.at_end()) {
+        return;
+    }
     let lost = r0.lost_to_phase.or(r0.lost_to_texcrd).or(r0.lost_to_depth);
     if r0.written.or(lost).is_empty() {
         report.breach(
@@ -268,7 +262,6 @@ fn result_is_written(listing: &Listing, r0: &Temporary, report: &mut Report) {
         );
         return;
     }
-    let result = Register::new(RegisterFile::Temp, 0);
     let mut missing = WriteMask::ALL.without(r0.written);
     if listing.has_phase && missing.has(3) {
         missing = missing.without(WriteMask::W);

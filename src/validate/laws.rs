@@ -125,6 +125,7 @@ const STRICT: Severities = [None, E, None];
 
 /// One row of the table.
 struct Law {
+    #[cfg_attr(not(test), allow(dead_code, reason = "names the row; a test reads it"))]
     code: Code,
     rule: Rule,
     severity: Severities,
@@ -300,10 +301,14 @@ impl Code {
 /// Why a breach that Direct3D 8 let pass is an error.
 const ONLY_LATER: &str = "Direct3D 8 accepted it; Direct3D 9 refuses it";
 
+/// How many breaches of a rule are told of one program.
+const MOST_OF_A_RULE: u32 = 100;
+
 /// What was found so far.
 pub(super) struct Report {
     dialect: Dialect,
     diagnostics: Vec<Diagnostic>,
+    counts: [u32; LAWS.len()],
 }
 
 impl Report {
@@ -311,6 +316,7 @@ impl Report {
         Self {
             dialect,
             diagnostics: Vec::new(),
+            counts: [0; LAWS.len()],
         }
     }
 
@@ -325,10 +331,15 @@ impl Report {
         let Some(severity) = code.severity(self.dialect) else {
             return;
         };
+        let count = &mut self.counts[code.law().of as usize];
+        *count = count.saturating_add(1);
+        if *count > MOST_OF_A_RULE {
+            return;
+        }
         let mut help = help.into();
         let was_let_pass = code.severity(Dialect::D3d8) != Some(Severity::Error);
         if self.dialect == Dialect::D3d9 && severity == Severity::Error && was_let_pass {
-            help = format!("{help}; {ONLY_LATER}");
+            help = format!("{help} ({ONLY_LATER})");
         }
         let found = Diagnostic::new(severity, code.rule(), span, message);
         self.diagnostics.push(found.with_help(help));

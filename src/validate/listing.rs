@@ -2,10 +2,12 @@
 
 use crate::diagnostic::Span;
 use crate::isa::opcode::ModifierRule;
+use crate::isa::register::{OFOG, OPTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, ShaderKind, SourceModifier, Version, VersionSet, WriteMask,
 };
-use crate::program::{Instruction, Program, Register};
+use crate::program::{Destination, Instruction, Program, Register};
+use std::collections::HashMap;
 
 /// A part of a `ps.1.4` shader. A shader without `phase` is all second phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +35,6 @@ pub(super) struct Read {
     /// The components that have an effect on what is written.
     pub(super) components: WriteMask,
     pub(super) span: Span,
-    pub(super) modifier: SourceModifier,
     /// The row of the matrix that reads it; 0 outside of matrix macros.
     pub(super) row: u32,
 }
@@ -44,10 +45,32 @@ pub(super) struct Listing<'p> {
     pub(super) version: Version,
     pub(super) lines: Vec<Line<'p>>,
     pub(super) has_phase: bool,
+    unread: Unread,
+}
+
+/// Statements that could not be read.
+struct Unread {
+    /// Where they begin, in order.
+    starts: Vec<u32>,
+    /// Where the first begins that seems to write a register; `None`: nobody knows which.
+    first: HashMap<Option<Register>, u32>,
+}
+
+impl Unread {
+    fn new(unread: &[(Span, Option<Register>)]) -> Self {
+        let mut starts: Vec<u32> = unread.iter().map(|(span, _)| span.start).collect();
+        starts.sort_unstable();
+        let mut first = HashMap::new();
+        for (span, register) in unread {
+            let at = first.entry(*register).or_insert(span.start);
+            *at = span.start.min(*at);
+        }
+        Self { starts, first }
+    }
 }
 
 impl<'p> Listing<'p> {
-    pub(super) fn new(program: &'p Program) -> Self {
+    pub(super) fn new(program: &'p Program, unread: &[(Span, Option<Register>)]) -> Self {
         let version = program.version;
         let is_phase = |i: &Instruction| i.opcode == Opcode::Phase;
         let has_phase = version == Version::Ps14 && program.instructions().any(is_phase);
@@ -77,6 +100,7 @@ impl<'p> Listing<'p> {
             version,
             lines,
             has_phase,
+            unread: Unread::new(unread),
         }
     }
 
@@ -113,6 +137,26 @@ impl<'p> Listing<'p> {
         }
     }
 
+    /// Whether a statement before a place, which could not be read, may have written a register.
+    pub(super) fn hides_write(&self, register: Register, before: Span) -> bool {
+        let at = |register| self.unread.first.get(&register);
+        let mut starts = [at(None), at(Some(register))].into_iter().flatten();
+        starts.any(|start| *start < before.start)
+    }
+
+    /// Whether a statement that could not be read may be a texture instruction.
+    pub(super) fn hides_texture_instructions(&self) -> bool {
+        let may = |to: &Option<Register>| to.is_none_or(|to| to.file == RegisterFile::Texture);
+        self.unread.first.keys().any(may)
+    }
+
+    /// Whether a statement between two places could not be read.
+    pub(super) fn hides_between(&self, from: Span, to: Span) -> bool {
+        let starts = &self.unread.starts;
+        let next = starts.get(starts.partition_point(|start| *start < from.start));
+        next.is_some_and(|start| *start <= to.start)
+    }
+
     /// Whether the version has this register.
     pub(super) fn exists(&self, register: Register) -> bool {
         register.relative || register.index < register.file.count(self.version)
@@ -145,10 +189,7 @@ impl Line<'_> {
         let Some(form) = self.form else {
             return Vec::new();
         };
-        let mask = self
-            .instruction
-            .destination
-            .map_or(WriteMask::ALL, |d| d.mask);
+        let mask = self.instruction.destination.map_or(WriteMask::ALL, used);
         let mut reads = Vec::new();
         if let (Some(shape), Some(looked_at)) = (form.destination, self.instruction.destination)
             && !shape.written
@@ -159,15 +200,18 @@ impl Line<'_> {
                 register: looked_at.register,
                 components: self.looks_at(),
                 span: looked_at.span,
-                modifier: SourceModifier::None,
                 row: 0,
             });
         }
         for (i, source) in self.instruction.sources.iter().enumerate() {
-            let matrix = form
-                .sources
-                .get(i)
-                .is_some_and(|s| s.modifiers == ModifierRule::Matrix);
+            // A register of the wrong file is one fault, which the rules on operands tell.
+            let Some(shape) = form.sources.get(i) else {
+                continue;
+            };
+            if !shape.files.contains(source.register.file) {
+                continue;
+            }
+            let matrix = shape.modifiers == ModifierRule::Matrix;
             let components = source.swizzle.reads(form.slots_read(i, mask));
             let rows = if matrix { form.rows } else { 1 };
             for row in (0..rows).filter(|row| !matrix || mask.has(*row as usize)) {
@@ -177,7 +221,6 @@ impl Line<'_> {
                     register,
                     components,
                     span: source.span,
-                    modifier: source.modifier,
                     row,
                 });
             }
@@ -221,6 +264,17 @@ impl Line<'_> {
     /// Whether it names a register of this file as its destination.
     pub(super) fn writes_file(&self, file: RegisterFile) -> bool {
         self.writes().is_some_and(|(r, _)| r.file == file)
+    }
+}
+
+/// The components of a destination that have an effect: `oFog` and `oPts` are one number, x if no mask is written.
+fn used(destination: Destination) -> WriteMask {
+    let one_number = destination.register.file == RegisterFile::RastOut
+        && matches!(destination.register.index, OFOG | OPTS);
+    if one_number && destination.mask == WriteMask::ALL {
+        WriteMask::X
+    } else {
+        destination.mask
     }
 }
 

@@ -22,17 +22,31 @@ mod tests;
 pub use laws::RULES;
 pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
-use crate::program::Program;
+use crate::program::{Program, Register};
 use laws::Report;
 use listing::Listing;
 
-/// Judges a program by the rules of a dialect. Returns every breach, by position.
+/// Judges a program by the rules of a dialect. Returns every breach, by position, but of one rule no more than 100,
+/// so that a file that is no shader does not drown in them.
 ///
 /// The time is linear in the length of the program. A program without an error can be lowered and run.
 pub fn validate(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
-    let listing = Listing::new(program);
+    validate_around(program, dialect, &[])
+}
+
+/// Judges a program of which some statements could not be read.
+///
+/// `unread` says where they stand and which register each seems to write, if that is known. What would follow from
+/// their absence alone (a register that is read and not written, a result that is missing, a `+` or a matrix that
+/// lost its first half) is not told: the damage has been.
+pub fn validate_around(
+    program: &Program,
+    dialect: Dialect,
+    unread: &[(Span, Option<Register>)],
+) -> Vec<Diagnostic> {
+    let listing = Listing::new(program, unread);
     let mut report = Report::new(dialect);
     budgets::check(&listing, &mut report);
     structure::check(&listing, &mut report);

@@ -59,6 +59,7 @@ fn vertex_modifiers(listing: &Listing, line: &Line, report: &mut Report) {
 fn written(modifier: SourceModifier) -> String {
     let row = modifier.row();
     match (row.prefix, row.suffix) {
+        ("-", "") => "minus sign".to_string(),
         (prefix, "") => prefix.to_string(),
         ("", suffix) => suffix.to_string(),
         (prefix, suffix) => format!("{prefix}…{suffix}"),
@@ -189,8 +190,7 @@ fn source_modifier(
             format!("{version} has no {text} on a source"),
             format!("only {} has it", version_names(versions)),
         );
-    } else if source.register.file == RegisterFile::Const && line.instruction.opcode != Opcode::Bem
-    {
+    } else if source.register.file == RegisterFile::Const {
         on_a_constant(listing, source, report);
     }
 }
@@ -288,9 +288,17 @@ fn selector(listing: &Listing, line: &Line, form: &Form, source: &Source, report
         (Version::Ps14, Class::Texture) => {
             let coordinates = swizzle == Swizzle::XYZZ
                 || (swizzle == Swizzle::XYWW && source.register.file == RegisterFile::Texture);
-            (coordinates, Code::M10, "t# as .xyz or .xyw, r# as .xyz")
+            (
+                coordinates,
+                Code::M10,
+                "it reads t# as .xyz or .xyw, r# as .xyz",
+            )
         }
-        (Version::Ps14, _) => (one.is_some(), Code::M10, "one of .r, .g, .b, .a, or none"),
+        (Version::Ps14, _) => (
+            one.is_some(),
+            Code::M10,
+            "it reads one of .r, .g, .b, .a, or all as they are",
+        ),
         (_, Class::Texture) => (false, Code::M9, "texture instructions read all of a t#"),
         (version, _) => {
             let to_alpha = line
@@ -299,12 +307,12 @@ fn selector(listing: &Listing, line: &Line, form: &Form, source: &Source, report
                 .is_some_and(|d| d.mask == WriteMask::W);
             let blue = one == Some(2) && version != Version::Ps10 && to_alpha;
             let help = match (one, version) {
-                (Some(2), Version::Ps10) => ".a; ps.1.1 has .b too, for a result in .a",
+                (Some(2), Version::Ps10) => "it reads .a; ps.1.1 has .b too, for a result in .a",
                 (Some(2), _) => ".b goes with a result in .a only; .a with any",
                 (None, _) if swizzle == Swizzle::XYZZ => {
                     "leave it out; the write mask says which components are used"
                 }
-                _ => ".a, and from ps.1.1 on .b for a result in .a; ps.1.4 has all four",
+                _ => "it reads .a, and from ps.1.1 on .b for a result in .a; ps.1.4 has all four",
             };
             (one == Some(3) || blue, Code::M9, help)
         }

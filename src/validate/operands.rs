@@ -5,7 +5,7 @@ use super::listing::{Line, Listing, Phase, enumerate};
 use super::modifiers::allowed_masks;
 use crate::diagnostic::Span;
 use crate::isa::opcode::{ModifierRule, Slots};
-use crate::isa::register::{Access, VERTEX_CONSTANTS};
+use crate::isa::register::{Access, RAST_OUT, VERTEX_CONSTANTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
@@ -96,9 +96,18 @@ fn register_exists(
 fn files_of(version: Version) -> String {
     let names: Vec<String> = RegisterFile::all()
         .filter(|f| f.count(version) > 0)
-        .map(|f| format!("{}#", f.row().prefix))
+        .map(any_of)
         .collect();
     enumerate(&names, "and")
+}
+
+/// What the registers of a file are called when any of them is meant.
+fn any_of(file: RegisterFile) -> String {
+    match file {
+        RegisterFile::RastOut => RAST_OUT.join(", "),
+        RegisterFile::Addr => file.register_name(0),
+        _ => format!("{}#", file.row().prefix),
+    }
 }
 
 fn check_destination(
@@ -138,7 +147,7 @@ fn check_destination(
         .files
         .iter()
         .filter(|f| f.count(listing.version) > 0)
-        .map(|f| format!("{}#", f.row().prefix))
+        .map(any_of)
         .collect();
     let files = enumerate(&files, "or");
     let (message, help) = match code {
@@ -546,6 +555,10 @@ fn address_is_written(listing: &Listing, report: &mut Report) {
     for line in &listing.lines {
         let relative = |s: &&Source| s.register.relative;
         if let Some(source) = line.instruction.sources.iter().find(relative) {
+            let address = Register::new(RegisterFile::Addr, 0);
+            if listing.hides_write(address, source.span) {
+                return;
+            }
             report.breach(
                 Code::O5Unwritten,
                 source.span,

@@ -14,7 +14,11 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
     definitions_stand_alone(listing, report);
     let mut previous: Option<&Line> = None;
     for line in &listing.lines {
-        if line.instruction.co_issue && !line.joined {
+        let hidden = previous.map_or(listing.program.version_span, |l| l.instruction.span);
+        if line.instruction.co_issue
+            && !line.joined
+            && !listing.hides_between(hidden, line.instruction.span)
+        {
             not_joined(listing, previous, line, report);
         }
         previous = Some(line);

@@ -11,7 +11,10 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
         return;
     }
     stages_increase(listing, report);
-    matrices_are_whole(listing, report);
+    // A row that could not be read is no missing row.
+    if !listing.hides_texture_instructions() {
+        matrices_are_whole(listing, report);
+    }
     contents_are_readable(listing, report);
 }
 
@@ -24,7 +27,9 @@ fn stage(line: &Line) -> Option<u32> {
 /// T1.
 fn stages_increase(listing: &Listing, report: &mut Report) {
     let mut highest: Option<(u32, &Line)> = None;
-    for line in &listing.lines {
+    // What goes beyond the number of stages is told by B2.
+    let stages = listing.version.row().texture_slots as usize;
+    for line in listing.lines.iter().filter(|l| l.is_texture()).take(stages) {
         let (Some(stage), Some(destination)) = (stage(line), line.instruction.destination) else {
             continue;
         };
@@ -112,7 +117,7 @@ fn matrices_are_whole(listing: &Listing, report: &mut Report) {
                 Some(Row::Last(rows)) if o.pads + 1 == o.rows => rows,
                 _ => 0,
             };
-            rows == o.rows && stage == o.stage + 1
+            rows == o.rows && Some(stage) == o.stage.checked_add(1)
         });
         match (open.take(), row) {
             (Some(before), Some(row)) if continues => {
@@ -276,6 +281,9 @@ fn contents_are_readable(listing: &Listing, report: &mut Report) {
             let is_register =
                 |r: &&Read| r.register.file == RegisterFile::Texture && listing.exists(r.register);
             for read in line.reads().iter().filter(is_register) {
+                if listing.hides_write(read.register, read.span) {
+                    continue;
+                }
                 let index = read.register.index;
                 let Some(content) = contents.get_mut(index as usize) else {
                     continue;

@@ -55,7 +55,7 @@ pub struct Statistics {
 
 /// Counts what a shader uses. Works on shaders that break rules, too.
 pub fn statistics(program: &Program) -> Statistics {
-    let listing = Listing::new(program);
+    let listing = Listing::new(program, &[]);
     let limit = listing.version.row();
     let slots = budgets::slots(&listing);
     let phases = if listing.has_phase {

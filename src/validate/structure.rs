@@ -4,7 +4,7 @@ use super::laws::{Code, Report};
 use super::listing::{Listing, Phase, version_names};
 use crate::isa::register::OPOS;
 use crate::isa::{Opcode, RegisterFile, Version, WriteMask};
-use crate::program::{Destination, Statement};
+use crate::program::{Destination, Register, Statement};
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     instructions_exist(listing, report);
@@ -142,6 +142,10 @@ fn position_is_written(listing: &Listing, report: &mut Report) {
             last = Some(destination);
         }
     }
+    let position = Register::new(RegisterFile::RastOut, OPOS);
+    if listing.hides_write(position, listing.program.span.at_end()) {
+        return;
+    }
     let Some(last) = last else {
         report.breach(
             Code::S8,
@@ -177,7 +181,10 @@ fn coordinates_have_no_gaps(listing: &Listing, report: &mut Report) {
     let mut gap = None;
     for (i, (first, mask)) in sets.into_iter().enumerate() {
         let Some(first) = first else {
-            gap = gap.or(Some(i));
+            let register = Register::new(file, i as u32);
+            if !listing.hides_write(register, listing.program.span.at_end()) {
+                gap = gap.or(Some(i));
+            }
             continue;
         };
         if let Some(gap) = gap {
