@@ -75,9 +75,10 @@ impl Meaning {
         if let Some((_, meaning)) = VECTORS.iter().find(|(known, _)| *known == name) {
             return Some(*meaning);
         }
-        let (rest, inverse, transpose) = PREFIXES.iter().find_map(|&(prefix, inverse, transpose)| {
-            Some((name.strip_prefix(prefix)?, inverse, transpose))
-        })?;
+        let (rest, inverse, transpose) =
+            PREFIXES.iter().find_map(|&(prefix, inverse, transpose)| {
+                Some((name.strip_prefix(prefix)?, inverse, transpose))
+            })?;
         let (_, matrix) = MATRICES.iter().find(|(known, _)| *known == rest)?;
         Some(Self::Matrix {
             matrix: *matrix,
@@ -88,10 +89,11 @@ impl Meaning {
 
     /// Every name that has a meaning.
     pub(super) fn names() -> Vec<String> {
-        let matrices = PREFIXES
-            .iter()
-            .rev()
-            .flat_map(|(prefix, ..)| MATRICES.iter().map(move |(name, _)| format!("{prefix}{name}")));
+        let matrices = PREFIXES.iter().rev().flat_map(|(prefix, ..)| {
+            MATRICES
+                .iter()
+                .map(move |(name, _)| format!("{prefix}{name}"))
+        });
         let vectors = VECTORS.iter().map(|(name, _)| (*name).to_owned());
         vectors.chain(matrices).collect()
     }
@@ -258,7 +260,8 @@ pub(super) fn constants(
                 "`{key}` and `{name}` both set c{}",
                 register.max(other.register)
             );
-            let help = "a matrix fills four registers; { meaning = \"…\", registers = 3 } fills three";
+            let help =
+                "a matrix fills four registers; { meaning = \"…\", registers = 3 } fills three";
             problems.error_with(&rules::TWICE, key_span, message, Some(help.to_owned()));
             continue;
         }
@@ -300,7 +303,11 @@ fn value(node: Node<'_>, problems: &mut Problems) -> Option<(Value, u32)> {
             Some((Value::Registers(vec![register]), 1))
         }
         DeValue::Array(list) => {
-            let message = format!("`{}` has {} numbers; a register has four", node.key, list.len());
+            let message = format!(
+                "`{}` has {} numbers; a register has four",
+                node.key,
+                list.len()
+            );
             problems.error(&rules::VALUE, node.span(problems), message);
             None
         }

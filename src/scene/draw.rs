@@ -153,8 +153,9 @@ pub(super) fn read(
         // A name that is wrong has been reported.
         let empty = stage.texture.is_none() && !read_stages[number];
         if empty && sampled >> number & 1 == 1 {
-            let message =
-                format!("the pixel shader samples stage {number}, which has no texture: opaque black");
+            let message = format!(
+                "the pixel shader samples stage {number}, which has no texture: opaque black"
+            );
             problems.warning(&rules::UNBOUND, span, message);
         }
     }

@@ -7,7 +7,7 @@ use super::draw::{self, Draw, Known, Names};
 use super::error::{Problems, SceneError, rules};
 use super::files::Files;
 use super::resolve::Resolver;
-use super::section::{At, Node, Section};
+use super::section::{At, Node, ROOT, Section};
 use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
@@ -109,11 +109,11 @@ fn read(
     if problems.any_error() {
         return None;
     }
-    let mut root = Section::new("the scene file", table.into_inner(), whole, problems);
+    let mut root = Section::new(ROOT, table.into_inner(), whole, problems);
     let size = size(&mut root, problems);
-    let clear = root.or("clear", [0.0, 0.0, 0.0, 1.0], problems);
+    let clear = root.array_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
     let time = root.or("time", 0.0, problems);
-    let light_direction: [f32; 3] = root.or("light_direction", [0.0, -1.0, 0.0], problems);
+    let light_direction: [f32; 3] = root.array_or("light_direction", [0.0, -1.0, 0.0], problems);
     let camera = root
         .table("camera", problems)
         .map_or_else(Camera::default, |table| Camera::read(table, problems));
@@ -155,20 +155,12 @@ fn read(
     };
     root.finish(problems);
 
-    let sources: Vec<Option<TextureSource>> = textures
-        .into_iter()
-        .map(|source| match source? {
-            Source::Loaded(texture) => Some(TextureSource::Loaded(texture)),
-            Source::Target(name) => {
-                let target = draw::find(&target_names, "render target", &name, problems)?;
-                Some(TextureSource::Target(target))
-            }
-        })
-        .collect();
+    let sources = texture_sources(textures, &texture_names, &target_names, &targets, problems);
     // Numbers are good only if nothing has been left out.
     let meshes = all(meshes);
     let (draws, targets, sources) = (all(draws), all(targets), all(sources));
-    let (Some(meshes), Some(draws), Some(targets), Some(sources)) = (meshes, draws, targets, sources)
+    let (Some(meshes), Some(draws), Some(targets), Some(sources)) =
+        (meshes, draws, targets, sources)
     else {
         return None;
     };
@@ -200,17 +192,70 @@ fn read(
     Some(scene)
 }
 
+/// Looks up what textures are made of.
+fn texture_sources(
+    textures: Vec<Option<Source>>,
+    texture_names: &Names,
+    target_names: &Names,
+    targets: &[Option<Target>],
+    problems: &mut Problems,
+) -> Vec<Option<TextureSource>> {
+    let target = |name: &At<String>, problems: &mut Problems| {
+        draw::find(target_names, "render target", name, problems)
+    };
+    // Those that are made of others, in a first round: they look at what the others are.
+    let derived: Vec<Option<TextureSource>> = textures
+        .iter()
+        .map(|source| {
+            let Some(Source::Irradiance { of, edge }) = source else {
+                return None;
+            };
+            let number = draw::find(texture_names, "texture", of, problems)?;
+            match textures.get(number)?.as_ref()? {
+                Source::Loaded(cube) => {
+                    let map = texture::made(cube.irradiance(*edge), of.span, problems)?;
+                    Some(TextureSource::Loaded(map))
+                }
+                Source::Target(name) => {
+                    let number = target_names.get(&name.value)?;
+                    if targets.get(*number)?.as_ref()?.faces() == 6 {
+                        let (target, edge) = (*number, *edge);
+                        return Some(TextureSource::Irradiance { target, edge });
+                    }
+                    let message = format!("`{}` is not a cube", of.value);
+                    problems.error(&rules::CONTENT, of.span, message);
+                    None
+                }
+                Source::Irradiance { .. } => {
+                    let message = format!("`{}` is a diffuse cube map already", of.value);
+                    problems.error(&rules::CONTENT, of.span, message);
+                    None
+                }
+            }
+        })
+        .collect();
+    (textures.into_iter().zip(derived))
+        .map(|(source, derived)| match source? {
+            Source::Loaded(texture) => Some(TextureSource::Loaded(texture)),
+            Source::Target(name) => target(&name, problems).map(TextureSource::Target),
+            Source::Irradiance { .. } => derived,
+        })
+        .collect()
+}
+
 /// Everything, unless something is missing.
 fn all<T>(list: Vec<Option<T>>) -> Option<Vec<T>> {
     list.into_iter().collect()
 }
 
 fn size(root: &mut Section<'_>, problems: &mut Problems) -> Option<[u32; 2]> {
-    let Some(At { value, span }) = root.at::<[u32; 2]>("size", problems) else {
+    let Some(At { value, span }) = root.array::<u32, 2>("size", problems) else {
         return Some([640, 480]);
     };
     let [width, height] = value;
-    if value.iter().all(|side| (1..=raster::Target::MAX_SIDE).contains(side))
+    if value
+        .iter()
+        .all(|side| (1..=raster::Target::MAX_SIDE).contains(side))
         && u64::from(width) * u64::from(height) <= raster::Target::MAX_PIXELS
     {
         return Some(value);

@@ -38,7 +38,7 @@ pub(super) fn read(
             let name = files.resolver.display_name(&path.value);
             Mesh::from_obj(&bytes, options).map_err(|error| format!("`{name}`: {error}"))
         }
-        ["positions"] => {
+        [_] => {
             let data = inline(&mut section, problems);
             section.finish(problems);
             Mesh::new(data?).map_err(|error| error.to_string())
@@ -48,13 +48,13 @@ pub(super) fn read(
             return None;
         }
         [first, second, ..] => {
-            let message = format!("a mesh is made from `{first}` or from `{second}`, not from both");
+            let message =
+                format!("a mesh is made from `{first}` or from `{second}`, not from both");
             problems.error(&rules::TWICE, span, message);
             return None;
         }
     };
-    let finished =
-        built.and_then(|mesh| finish.apply(mesh).map_err(|error| error.to_string()));
+    let finished = built.and_then(|mesh| finish.apply(mesh).map_err(|error| error.to_string()));
     match finished {
         Ok(mesh) => files.take_mesh(&mesh, span, problems).then_some(mesh),
         Err(message) => {
@@ -79,9 +79,19 @@ impl Finish {
             transform: matrix
                 .and_then(|node| transform(node, problems))
                 .unwrap_or(Mat4::IDENTITY),
-            texcoord_scale: Vec2::from_array(section.or("texcoord_scale", [1.0; 2], problems)),
-            texcoord_offset: Vec2::from_array(section.or("texcoord_offset", [0.0; 2], problems)),
-            color: section.get("color", problems).map(Vec4::from_array),
+            texcoord_scale: Vec2::from_array(section.array_or(
+                "texcoord_scale",
+                [1.0; 2],
+                problems,
+            )),
+            texcoord_offset: Vec2::from_array(section.array_or(
+                "texcoord_offset",
+                [0.0; 2],
+                problems,
+            )),
+            color: section
+                .array("color", problems)
+                .map(|at| Vec4::from_array(at.value)),
         }
     }
 
@@ -101,10 +111,7 @@ impl Finish {
 
 /// A built-in shape. Its keys are those of [`Shape`], which is asked about each alone when it refuses them together, so
 /// that each problem gets its place.
-fn shape(
-    mut section: Section<'_>,
-    problems: &mut Problems,
-) -> Option<Result<Mesh, String>> {
+fn shape(mut section: Section<'_>, problems: &mut Problems) -> Option<Result<Mesh, String>> {
     let name = section.node("shape")?;
     let parameters = section.rest();
     let ask = |nodes: &[&Node<'_>]| {
@@ -153,16 +160,12 @@ fn shape(
 
 /// Lists written in the scene file.
 fn inline(section: &mut Section<'_>, problems: &mut Problems) -> Option<MeshData> {
-    let mut vectors = |key, section: &mut Section<'_>| -> Vec<Vec3> {
-        let list: Vec<[f32; 3]> = section.or(key, Vec::new(), problems);
-        list.into_iter().map(Vec3::from_array).collect()
-    };
-    let positions = vectors("positions", section);
-    let normals = vectors("normals", section);
-    let tangents = vectors("tangents", section);
-    let bitangents = vectors("bitangents", section);
-    let texcoords: Vec<[f32; 2]> = section.or("texcoords", Vec::new(), problems);
-    let colors: Vec<[f32; 4]> = section.or("colors", Vec::new(), problems);
+    let positions = vectors(section, "positions", problems, Vec3::from_array);
+    let normals = vectors(section, "normals", problems, Vec3::from_array);
+    let tangents = vectors(section, "tangents", problems, Vec3::from_array);
+    let bitangents = vectors(section, "bitangents", problems, Vec3::from_array);
+    let texcoords = vectors(section, "texcoords", problems, Vec2::from_array);
+    let colors = vectors(section, "colors", problems, Vec4::from_array);
     let indices: Option<Vec<u32>> = section.get("indices", problems);
     let whole = positions.len() - positions.len() % 3;
     Some(MeshData {
@@ -170,9 +173,20 @@ fn inline(section: &mut Section<'_>, problems: &mut Problems) -> Option<MeshData
         normals,
         tangents,
         bitangents,
-        texcoords: texcoords.into_iter().map(Vec2::from_array).collect(),
-        colors: colors.into_iter().map(Vec4::from_array).collect(),
+        texcoords,
+        colors,
         // Positions are bounded by the length of a scene file.
         indices: indices.unwrap_or_else(|| (0..whole as u32).collect()),
     })
+}
+
+/// A list of vectors; empty if there is none.
+fn vectors<T, const N: usize>(
+    section: &mut Section<'_>,
+    key: &'static str,
+    problems: &mut Problems,
+    vector: impl Fn([f32; N]) -> T,
+) -> Vec<T> {
+    let list = section.arrays(key, problems).map(|at| at.value);
+    list.into_iter().flatten().map(vector).collect()
 }

@@ -87,6 +87,13 @@ pub enum TextureSource {
     Loaded(Texture),
     /// They are what the passes of this render target draw.
     Target(usize),
+    /// They are the diffuse cube map ([`Texture::irradiance`]) of what the passes of this render target draw.
+    Irradiance {
+        /// The target.
+        target: usize,
+        /// The edge of the map's faces in texels.
+        edge: u32,
+    },
 }
 
 impl Scene {

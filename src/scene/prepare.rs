@@ -1,10 +1,9 @@
 //! What a scene draws, as plain data: the passes and draws that the rasterizer, a GPU or a debugger takes.
 
-use super::constants::{Constant, Surroundings, Value};
+use super::constants::{Constant, Surroundings};
 use super::draw::{Declaration, Draw};
 use super::error::{Problems, rules};
 use super::shader::Shader;
-use super::target::View;
 use super::{Scene, TextureSource};
 use crate::diagnostic::Span;
 use crate::exec::{STAGES, bind_constants};
@@ -129,10 +128,16 @@ impl Scene {
     }
 
     fn picture_matrices(&self, [width, height]: [u32; 2]) -> (Mat4, Mat4) {
-        self.camera.matrices(width.max(1) as f32 / height.max(1) as f32)
+        self.camera
+            .matrices(width.max(1) as f32 / height.max(1) as f32)
     }
 
-    fn prepare(&self, draws: &[usize], view: (Mat4, Mat4), size: [u32; 2]) -> Vec<PreparedDraw<'_>> {
+    fn prepare(
+        &self,
+        draws: &[usize],
+        view: (Mat4, Mat4),
+        size: [u32; 2],
+    ) -> Vec<PreparedDraw<'_>> {
         draws
             .iter()
             .filter_map(|&number| Some((number, self.draws.get(number)?)))
@@ -152,9 +157,17 @@ impl Scene {
                     declaration: &draw.declaration,
                     topology: draw.topology,
                     vertex: &draw.vertex,
-                    vertex_constants: bound(&draw.vertex.kernel, &draw.vertex_constants, &surroundings),
+                    vertex_constants: bound(
+                        &draw.vertex.kernel,
+                        &draw.vertex_constants,
+                        &surroundings,
+                    ),
                     pixel: &draw.pixel,
-                    pixel_constants: bound(&draw.pixel.kernel, &draw.pixel_constants, &surroundings),
+                    pixel_constants: bound(
+                        &draw.pixel.kernel,
+                        &draw.pixel_constants,
+                        &surroundings,
+                    ),
                     stages,
                     state,
                 })
@@ -186,7 +199,9 @@ impl Scene {
             .flat_map(|draw| &draw.stages)
             .filter_map(|stage| self.textures.get(stage.texture?))
             .filter_map(|texture| match texture.source {
-                TextureSource::Target(target) => Some(target),
+                TextureSource::Target(target) | TextureSource::Irradiance { target, .. } => {
+                    Some(target)
+                }
                 TextureSource::Loaded(_) => None,
             })
             .collect();
@@ -225,7 +240,8 @@ impl Scene {
             for draw in draws.iter().filter_map(|&number| self.draws.get(number)) {
                 let surroundings = self.surroundings(draw, view, size);
                 for constant in draw.vertex_constants.iter().chain(&draw.pixel_constants) {
-                    if constant.bind(&surroundings).is_none() && !reported.contains(&constant.span) {
+                    if constant.bind(&surroundings).is_none() && !reported.contains(&constant.span)
+                    {
                         reported.push(constant.span);
                         let message = "this needs the inverse of a matrix that has none";
                         problems.error(&rules::VALUE, constant.span, message);

@@ -115,6 +115,7 @@ impl Scene {
         let mut renderer = Renderer {
             scene: self,
             rendered: vec![None; self.targets.len()],
+            derived: vec![None; self.textures.len()],
             faces: Vec::new(),
             done: 0,
             total: passes.iter().map(|pass| pass.draws.len()).sum(),
@@ -149,6 +150,8 @@ struct Renderer<'a> {
     scene: &'a Scene,
     /// The targets that are done, by number.
     rendered: Vec<Option<Texture>>,
+    /// What was made of targets, by the number of the texture.
+    derived: Vec<Option<Texture>>,
     /// The faces of the target that is being rendered.
     faces: Vec<Texture>,
     done: usize,
@@ -190,6 +193,13 @@ impl Renderer<'_> {
         if plan.mipmaps {
             texture.generate_mips().map_err(refused)?;
         }
+        for (entry, place) in self.scene.textures.iter().zip(&mut self.derived) {
+            if let TextureSource::Irradiance { target, edge } = entry.source
+                && target == number
+            {
+                *place = Some(texture.irradiance(edge).map_err(refused)?);
+            }
+        }
         if let Some(place) = self.rendered.get_mut(number) {
             *place = Some(texture);
         }
@@ -203,10 +213,14 @@ impl Renderer<'_> {
         target: &mut Target,
     ) -> Result<(), RenderError> {
         // As a colour is written into eight bits: NaN is 0, halves go up.
-        let clear = pass.clear.map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
+        let clear = pass
+            .clear
+            .map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
         target.clear(Some(clear), Some(1.0), Some(0));
         for (place, prepared) in pass.draws.iter().enumerate() {
-            let picture = shown.filter(|(at, _)| *at == place).map(|(_, picture)| picture);
+            let picture = shown
+                .filter(|(at, _)| *at == place)
+                .map(|(_, picture)| picture);
             (self.progress)(Progress {
                 done: self.done,
                 total: self.total,
@@ -283,6 +297,7 @@ impl Renderer<'_> {
         match &self.scene.textures.get(number)?.source {
             TextureSource::Loaded(texture) => Some(texture),
             TextureSource::Target(target) => self.rendered.get(*target)?.as_ref(),
+            TextureSource::Irradiance { .. } => self.derived.get(number)?.as_ref(),
         }
     }
 }

@@ -1,11 +1,15 @@
 //! Tables of a scene file, read key by key, so that every problem of a table is found and each has its place.
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 use super::error::{Problems, advice, advice_from, rules};
 use crate::diagnostic::Span;
+
+/// What messages call the outermost table.
+pub(super) const ROOT: &str = "the scene file";
 
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +24,24 @@ pub(super) struct Node<'i> {
     pub(super) key: String,
     pub(super) key_span: Span,
     pub(super) value: Spanned<DeValue<'i>>,
+}
+
+/// A list of exactly `N` entries. (`serde` itself takes longer lists for an array and leaves the rest out.)
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Exactly<T, const N: usize>(pub(super) [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let list = Vec::<T>::deserialize(deserializer)?;
+        let count = list.len();
+        <[T; N]>::try_from(list)
+            .map(Self)
+            .map_err(|_| serde::de::Error::custom(wrong_count(count, N)))
+    }
+}
+
+fn wrong_count(count: usize, wanted: usize) -> String {
+    format!("there are {count} entries where {wanted} must be")
 }
 
 /// A table whose keys are taken out one by one. What is left at the end is unknown.
@@ -88,11 +110,6 @@ impl<'i> Section<'i> {
         std::mem::take(&mut self.nodes)
     }
 
-    /// Puts back what a part of the table did not want.
-    pub(super) fn keep(&mut self, nodes: Vec<Node<'i>>) {
-        self.nodes.extend(nodes);
-    }
-
     /// Takes a value out, with its place.
     pub(super) fn at<T: DeserializeOwned>(
         &mut self,
@@ -119,6 +136,52 @@ impl<'i> Section<'i> {
         problems: &mut Problems,
     ) -> T {
         self.get(key, problems).unwrap_or(default)
+    }
+
+    /// Takes a list of exactly `N` entries out, with its place.
+    pub(super) fn array<T: DeserializeOwned, const N: usize>(
+        &mut self,
+        key: &'static str,
+        problems: &mut Problems,
+    ) -> Option<At<[T; N]>> {
+        let At { value, span } = self.at::<Exactly<T, N>>(key, problems)?;
+        let value = value.0;
+        Some(At { value, span })
+    }
+
+    /// Takes a list of exactly `N` entries out, or gives a default.
+    pub(super) fn array_or<T: DeserializeOwned, const N: usize>(
+        &mut self,
+        key: &'static str,
+        default: [T; N],
+        problems: &mut Problems,
+    ) -> [T; N] {
+        self.array(key, problems).map_or(default, |at| at.value)
+    }
+
+    /// Takes out lists of exactly `N` entries.
+    pub(super) fn arrays<T: DeserializeOwned, const N: usize>(
+        &mut self,
+        key: &'static str,
+        problems: &mut Problems,
+    ) -> Option<At<Vec<[T; N]>>> {
+        let At { value, span } = self.at::<Vec<Spanned<Vec<T>>>>(key, problems)?;
+        let mut lists = Vec::with_capacity(value.len());
+        for list in value {
+            let place = problems.span(list.span());
+            match <[T; N]>::try_from(list.into_inner()) {
+                Ok(list) => lists.push(list),
+                Err(list) => {
+                    let count = list.len();
+                    let message = format!("`{key}`: {}", wrong_count(count, N));
+                    problems.error(&rules::VALUE, place, message);
+                    // One is enough: the others are probably wrong in the same way.
+                    return None;
+                }
+            }
+        }
+        let value = lists;
+        Some(At { value, span })
     }
 
     /// Takes out a number that must lie in a range.
@@ -148,12 +211,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes out a text that is one of a set of names.
-    pub(super) fn named<T>(
-        &mut self,
-        key: &'static str,
-        default: T,
-        problems: &mut Problems,
-    ) -> T
+    pub(super) fn named<T>(&mut self, key: &'static str, default: T, problems: &mut Problems) -> T
     where
         T: std::str::FromStr,
         T::Err: std::fmt::Display,
@@ -182,7 +240,8 @@ impl<'i> Section<'i> {
     pub(super) fn inner_title(&self, key: &str) -> String {
         match self.title.strip_suffix(']') {
             Some(outer) => format!("{outer}.{key}]"),
-            None => format!("[{key}]"),
+            None if self.title == ROOT => format!("[{key}]"),
+            None => format!("{}, [{key}]", self.title),
         }
     }
 

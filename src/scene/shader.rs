@@ -69,7 +69,10 @@ pub(super) fn read(
             // The places in a text are counted from its first line, so it needs a name of its own.
             let name = format!("{}, `{}`", section.title, keys.text);
             let bytes = text.value.into_bytes();
-            (text.span, program(name, bytes, text.span, dialect, files, problems)?)
+            (
+                text.span,
+                program(name, bytes, text.span, dialect, files, problems)?,
+            )
         }
         (Some(_), Some(text)) => {
             let message = format!("`{}` already gives the {}", keys.file, keys.name);
@@ -134,11 +137,7 @@ fn program(
 }
 
 /// Lowers a listing for the stages of a draw.
-pub(super) fn lowered(
-    named: &Named,
-    options: &Options,
-    problems: &mut Problems,
-) -> Option<Shader> {
+pub(super) fn lowered(named: &Named, options: &Options, problems: &mut Problems) -> Option<Shader> {
     match lower(&named.value, options) {
         Ok(kernel) => Some(Shader {
             program: Arc::clone(&named.value),

@@ -84,7 +84,8 @@ fn color_mask(section: &mut Section<'_>, problems: &mut Problems) -> ColorMask {
         return ColorMask::ALL;
     };
     if value > 0xf {
-        let message = format!("`color_write` is {value}; the bits of the four channels are 0 to 15");
+        let message =
+            format!("`color_write` is {value}; the bits of the four channels are 0 to 15");
         problems.error(&rules::VALUE, span, message);
     }
     ColorMask::from_bits(value)
@@ -94,7 +95,7 @@ fn fog(mut s: Section<'_>, problems: &mut Problems) -> FogState {
     let default = FogState::default();
     let state = FogState {
         enable: s.or("enable", true, problems),
-        color: s.or("color", default.color, problems),
+        color: s.array_or("color", default.color, problems),
         table: s.named("table", default.table, problems),
         distance: default.distance,
         start: s.or("start", default.start, problems),
@@ -128,7 +129,7 @@ fn stencil(mut s: Section<'_>, problems: &mut Problems) -> StencilState {
 
 fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Vec4>; 6] {
     let mut planes = [None; 6];
-    let Some(At { value, span }) = section.at::<Vec<[f32; 4]>>("clip_planes", problems) else {
+    let Some(At { value, span }) = section.arrays::<f32, 4>("clip_planes", problems) else {
         return planes;
     };
     if value.len() > planes.len() {
@@ -156,7 +157,10 @@ pub(super) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
             let mut modes = default.address;
             if let Some(At { value, span }) = node.read::<Vec<String>>(problems) {
                 if value.is_empty() || value.len() > 3 {
-                    let message = format!("`address` has {} modes; there are up to three axes", value.len());
+                    let message = format!(
+                        "`address` has {} modes; there are up to three axes",
+                        value.len()
+                    );
                     problems.error(&rules::VALUE, span, message);
                 }
                 for (mode, name) in modes.iter_mut().zip(value) {
@@ -178,7 +182,7 @@ pub(super) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
         mip: s.named("mip", default.mip, problems),
         lod_bias: s.or("lod_bias", default.lod_bias, problems),
         max_mip_level: s.or("max_mip_level", default.max_mip_level, problems),
-        border: s.or("border", default.border, problems),
+        border: s.array_or("border", default.border, problems),
         seamless: s.or("seamless", default.seamless, problems),
     }
 }
@@ -219,7 +223,7 @@ fn filter_name(node: super::section::Node<'_>, problems: &mut Problems) -> Filte
 pub(super) fn bump(s: &mut Section<'_>, problems: &mut Problems) -> BumpState {
     let default = BumpState::default();
     BumpState {
-        matrix: s.or("bump_mat", default.matrix, problems),
+        matrix: s.array_or("bump_mat", default.matrix, problems),
         luminance_scale: s.or("lum_scale", default.luminance_scale, problems),
         luminance_offset: s.or("lum_offset", default.luminance_offset, problems),
     }

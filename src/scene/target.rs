@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3};
 use super::draw::{Names, find};
 use super::error::{Problems, rules};
 use super::files::Files;
-use super::section::{At, Section};
+use super::section::{At, Exactly, Section};
 use super::transform::{Camera, cube_face, depth_range};
 use crate::diagnostic::Span;
 
@@ -87,7 +87,7 @@ pub(super) fn read(
     let s = &mut section;
     let span = s.span;
     let kind = s.named("kind", Kind::Flat, problems);
-    let clear = s.or("clear", [0.0; 4], problems);
+    let clear = s.array_or("clear", [0.0; 4], problems);
     let mipmaps = s.or("mipmaps", false, problems);
     if !s.has("draws") {
         s.missing("`draws`", problems);
@@ -100,7 +100,7 @@ pub(super) fn read(
             None => Camera::default(),
         }),
         Kind::Cube => {
-            let from: [f32; 3] = s.or("from", [0.0; 3], problems);
+            let from: [f32; 3] = s.array_or("from", [0.0; 3], problems);
             let (near, far) = depth_range(s, problems);
             View::Cube {
                 from: from.into(),
@@ -147,7 +147,11 @@ fn size(s: &mut Section<'_>, kind: Kind, problems: &mut Problems) -> Option<[u32
         return None;
     };
     let At { value, span } = match node.value.get_ref() {
-        toml::de::DeValue::Array(_) => node.read::<[u32; 2]>(problems)?,
+        toml::de::DeValue::Array(_) => {
+            let At { value, span } = node.read::<Exactly<u32, 2>>(problems)?;
+            let value = value.0;
+            At { value, span }
+        }
         _ => {
             let At { value, span } = node.read::<u32>(problems)?;
             let value = [value; 2];
@@ -156,7 +160,10 @@ fn size(s: &mut Section<'_>, kind: Kind, problems: &mut Problems) -> Option<[u32
     };
     let wrong = if kind == Kind::Cube && value[0] != value[1] {
         "the faces of a cube are square".to_owned()
-    } else if value.iter().any(|side| !(1..=MAX_TARGET_SIDE).contains(side)) {
+    } else if value
+        .iter()
+        .any(|side| !(1..=MAX_TARGET_SIDE).contains(side))
+    {
         format!("each side is 1 to {MAX_TARGET_SIDE} pixels")
     } else {
         return Some(value);
@@ -192,19 +199,16 @@ pub(super) fn order(
     done
 }
 
-fn report_cycle(
-    targets: &[Target],
-    waits: &[Vec<usize>],
-    left: &[usize],
-    problems: &mut Problems,
-) {
+fn report_cycle(targets: &[Target], waits: &[Vec<usize>], left: &[usize], problems: &mut Problems) {
     // Everyone left waits for someone left, so that following the first wait must come back somewhere.
     let mut path: Vec<usize> = Vec::new();
     let Some(&first) = left.first() else { return };
     let mut at = first;
     while !path.contains(&at) {
         path.push(at);
-        let Some(&next) = waits[at].first() else { return };
+        let Some(&next) = waits[at].first() else {
+            return;
+        };
         at = next;
     }
     let start = path.iter().position(|&i| i == at).unwrap_or(0);

@@ -8,15 +8,18 @@ use crate::diagnostic::Span;
 use crate::texture::load::{
     cube_from_cross, cube_from_equirectangular, cube_from_faces, decode_dds, decode_image,
 };
-use crate::texture::{Format, Texture, TextureError, TextureKind, words_to_bytes};
+use crate::texture::{
+    Format, MAX_IRRADIANCE_EDGE, Texture, TextureError, TextureKind, words_to_bytes,
+};
 
 /// The keys of which a texture has one: what it is made from.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "file",
     "generate",
     "faces",
     "cross",
     "equirectangular",
+    "irradiance",
     "target",
     "texels",
     "raw",
@@ -29,6 +32,13 @@ pub(super) enum Source {
     Loaded(Texture),
     /// What a render target of this name holds.
     Target(At<String>),
+    /// The diffuse cube map of the cube texture of this name.
+    Irradiance {
+        /// The texture.
+        of: At<String>,
+        /// The edge of its faces in texels.
+        edge: u32,
+    },
 }
 
 /// Reads a texture.
@@ -46,6 +56,12 @@ pub(super) fn read(
             section.finish(problems);
             return target.map(Source::Target);
         }
+        ["irradiance"] => {
+            let of = s.at::<String>("irradiance", problems);
+            let edge = s.ranged("edge", 1..=MAX_IRRADIANCE_EDGE, 16, problems);
+            section.finish(problems);
+            return of.map(|of| Source::Irradiance { of, edge });
+        }
         ["file"] => s
             .at::<String>("file", problems)
             .and_then(|path| file(&path, files, problems)),
@@ -56,7 +72,7 @@ pub(super) fn read(
             made(cube_from_cross(cross), path.span, problems)
         }),
         ["equirectangular"] => equirectangular(s, files, problems),
-        ["texels"] | ["raw"] => inline(s, problems),
+        [_] => inline(s, problems),
         [] => {
             let sources = SOURCES.map(|key| format!("`{key}`")).join(", ");
             section.missing(&format!("one of {sources}"), problems);
@@ -84,7 +100,11 @@ pub(super) fn read(
 }
 
 /// What was made, or a problem.
-fn made<T>(result: Result<T, TextureError>, span: Span, problems: &mut Problems) -> Option<T> {
+pub(super) fn made<T>(
+    result: Result<T, TextureError>,
+    span: Span,
+    problems: &mut Problems,
+) -> Option<T> {
     match result {
         Ok(value) => Some(value),
         Err(error) => {
@@ -113,10 +133,13 @@ fn generated(s: &mut Section<'_>, span: Span, problems: &mut Problems) -> Option
     let name = s.at::<String>("generate", problems);
     let request = Request {
         generate: String::new(),
-        size: s.get("size", problems),
+        size: s.array("size", problems).map(|at| at.value),
         seed: s.get("seed", problems),
-        cells: s.get("cells", problems),
-        colors: s.or("colors", Vec::new(), problems),
+        cells: s.array("cells", problems).map(|at| at.value),
+        colors: s
+            .arrays("colors", problems)
+            .map(|at| at.value)
+            .unwrap_or_default(),
         relief: s.get("relief", problems),
     };
     let name = name?;
@@ -138,7 +161,7 @@ fn generated(s: &mut Section<'_>, span: Span, problems: &mut Problems) -> Option
 }
 
 fn faces(s: &mut Section<'_>, files: &Files<'_>, problems: &mut Problems) -> Option<Texture> {
-    let paths = s.at::<[toml::Spanned<String>; 6]>("faces", problems)?;
+    let paths = s.array::<toml::Spanned<String>, 6>("faces", problems)?;
     let mut faces = Vec::with_capacity(6);
     for path in paths.value {
         let span = problems.span(path.span());

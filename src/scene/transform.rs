@@ -3,11 +3,12 @@
 //! A scene file writes matrices as Direct3D does, for row vectors: `v · World · View · Projection`, the translation in the
 //! last row. In memory they are `glam`'s, for column vectors, so that the rows of the file become columns.
 
+use glam::camera::lh::proj::directx::perspective;
 use glam::{EulerRot, Mat4, Quat, Vec3, Vec4};
 use toml::de::DeValue;
 
 use super::error::{Problems, rules};
-use super::section::{At, Node, Section};
+use super::section::{At, Exactly, Node, Section};
 use crate::texture::CUBE_FACES;
 
 /// Reads four rows of four numbers.
@@ -68,15 +69,15 @@ pub(super) fn transform(node: Node<'_>, problems: &mut Problems) -> Option<Mat4>
     let mut table = node.into_section(format!("`{key}`"), problems)?;
     let scale = match table.node("scale") {
         Some(node) if matches!(node.value.get_ref(), DeValue::Array(_)) => node
-            .read::<[f32; 3]>(problems)
-            .map_or(Vec3::ONE, |at| Vec3::from_array(at.value)),
+            .read::<Exactly<f32, 3>>(problems)
+            .map_or(Vec3::ONE, |at| Vec3::from_array(at.value.0)),
         Some(node) => node
             .read::<f32>(problems)
             .map_or(Vec3::ONE, |at| Vec3::splat(at.value)),
         None => Vec3::ONE,
     };
-    let rotate: [f32; 3] = table.or("rotate", [0.0; 3], problems);
-    let translate: [f32; 3] = table.or("translate", [0.0; 3], problems);
+    let rotate: [f32; 3] = table.array_or("rotate", [0.0; 3], problems);
+    let translate: [f32; 3] = table.array_or("translate", [0.0; 3], problems);
     table.finish(problems);
     let [x, y, z] = rotate.map(f32::to_radians);
     // The quaternion turns about x first: from right to left, as column vectors have it.
@@ -151,10 +152,10 @@ impl Camera {
     }
 
     fn look(section: &mut Section<'_>, problems: &mut Problems) -> Mat4 {
-        let position: [f32; 3] = section.or("position", [0.0; 3], problems);
+        let position: [f32; 3] = section.array_or("position", [0.0; 3], problems);
         let position = Vec3::from_array(position);
-        let look_at = section.at::<[f32; 3]>("look_at", problems);
-        let up = section.at::<[f32; 3]>("up", problems);
+        let look_at = section.array::<f32, 3>("look_at", problems);
+        let up = section.array::<f32, 3>("up", problems);
         let place = look_at
             .as_ref()
             .or(up.as_ref())
@@ -174,9 +175,7 @@ impl Camera {
     /// View and projection for a picture of this width over height.
     pub(super) fn matrices(&self, aspect: f32) -> (Mat4, Mat4) {
         let projection = match self.projection {
-            Projection::Perspective { fov, near, far } => {
-                Mat4::perspective_lh(fov, aspect, near, far)
-            }
+            Projection::Perspective { fov, near, far } => perspective(fov, aspect, near, far),
             Projection::Matrix(matrix) => matrix,
         };
         (self.view, projection)
@@ -188,7 +187,10 @@ pub(super) fn depth_range(section: &mut Section<'_>, problems: &mut Problems) ->
     let near = section.at::<f32>("near", problems);
     let far = section.at::<f32>("far", problems);
     let place = far.as_ref().or(near.as_ref()).map(|at| at.span);
-    let (near, far) = (near.map_or(0.1, |at| at.value), far.map_or(100.0, |at| at.value));
+    let (near, far) = (
+        near.map_or(0.1, |at| at.value),
+        far.map_or(100.0, |at| at.value),
+    );
     if near > 0.0 && near < far && far.is_finite() {
         return (near, far);
     }
@@ -221,10 +223,12 @@ pub(super) fn cube_face(face: usize, from: Vec3, near: f32, far: f32, size: u32)
     };
     let [right, down, forward] = [axes.sc, axes.tc, axes.ma].map(|axis| {
         let sign = if axis.negative { -1.0 } else { 1.0 };
-        Vec3::from_array(std::array::from_fn(|i| if i == axis.axis { sign } else { 0.0 }))
+        Vec3::from_array(std::array::from_fn(
+            |i| if i == axis.axis { sign } else { 0.0 },
+        ))
     });
     let half_texel = 1.0 / size.max(1) as f32;
     let shift = Mat4::from_translation(Vec3::new(-half_texel, half_texel, 0.0));
-    let projection = Mat4::perspective_lh(std::f32::consts::FRAC_PI_2, 1.0, near, far);
+    let projection = perspective(std::f32::consts::FRAC_PI_2, 1.0, near, far);
     (view(from, right, -down, forward), shift * projection)
 }
