@@ -1,1 +1,127 @@
-//! The syntax room (to be filled).
+//! Listings: reading them, saying what is wrong with them, repairing and printing them.
+//!
+//! The way of a text: [`lexer`] (bytes to tokens, `nom`), [`prologue`] (the version), [`statement`], [`list`],
+//! [`operand`], [`meaning`], [`declare`] (instructions). What a word means is in [`names`]; what a scanner or a typist makes of one in [`confuse`];
+//! what can be said about operands without mnemonic in [`lost`]. Line ends are white space to the grammar, but they
+//! are where reading starts again after damage, so that one damaged place is one diagnostic.
+
+mod confuse;
+mod declare;
+mod fix;
+mod lexer;
+mod list;
+mod lost;
+mod meaning;
+mod names;
+mod operand;
+mod parser;
+mod printer;
+mod prologue;
+mod report;
+mod rules;
+mod statement;
+
+#[cfg(test)]
+mod tests;
+
+pub use fix::apply_fixes;
+pub use printer::{print, print_instruction};
+pub use rules::RULES;
+
+use crate::diagnostic::{Diagnostic, SourceFile, Span};
+use crate::isa::Version;
+use crate::program::{Program, Register};
+use parser::Parser;
+use report::Reports;
+
+/// How a text is read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// The version of a text that has no version instruction (fragments that a program joins before assembling them).
+    pub version: Option<Version>,
+}
+
+/// What was read from a text.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// The shader without the statements that could not be read. `None` if its version is not known.
+    pub program: Option<Program>,
+    /// What is wrong with the text, in its order; at most 101.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The statements that are not in `program`: what is said of the registers which they seem to write
+    /// (uninitialised, never written) follows from the damage.
+    pub damaged: Vec<Damage>,
+}
+
+/// A statement that could not be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Damage {
+    /// Where it stands.
+    pub span: Span,
+    /// The register that it seems to write.
+    pub destination: Option<Register>,
+}
+
+/// Reads a listing that begins with its version.
+///
+/// Never fails: whatever cannot be read is a diagnostic, all of them at once. Time and memory are linear in the length
+/// of the text.
+pub fn parse(file: &SourceFile) -> Parsed {
+    parse_with(file, Options::default())
+}
+
+/// Reads a listing.
+pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
+    let base = file.span().start;
+    let bytes = file.bytes();
+    // Some listings were cut out of programs with the NUL behind them.
+    let end = bytes
+        .iter()
+        .rposition(|b| *b != 0)
+        .map_or(0, |last| last + 1);
+    let text = bytes.get(..end).unwrap_or(bytes);
+    let mut reports = Reports::default();
+    if let Some((what, help)) = prologue::not_text(text) {
+        let message = format!("this is no listing but {what}");
+        let mut report = Diagnostic::error(&rules::NOT_A_LISTING, file.span().at_start(), message);
+        if !help.is_empty() {
+            report = report.with_help(help);
+        }
+        return Parsed {
+            program: None,
+            diagnostics: vec![report],
+            damaged: Vec::new(),
+        };
+    }
+    let lexed = lexer::lex(text, base, &mut reports);
+    let mut parser = Parser {
+        text,
+        base,
+        tokens: &lexed.tokens,
+        at: 0,
+        version: options.version.unwrap_or(Version::Vs11),
+        names_missing: lexed.names_missing,
+        reports,
+        statements: Vec::new(),
+        damaged: Vec::new(),
+        lost: Vec::new(),
+        strays: Vec::new(),
+    };
+    let heading = parser.heading(options.version);
+    if let Some(heading) = &heading {
+        parser.version = heading.version;
+        parser.statements();
+    }
+    let rest = Some(parser.span(parser.peek())).filter(|_| parser.peek().kind != lexer::Kind::End);
+    let program = heading.filter(|h| !h.guessed).map(|heading| Program {
+        version: heading.version,
+        version_span: heading.span,
+        statements: parser.statements,
+        span: file.span(),
+    });
+    Parsed {
+        program,
+        diagnostics: parser.reports.finish(rest),
+        damaged: parser.damaged,
+    }
+}

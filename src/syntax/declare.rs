@@ -1,0 +1,301 @@
+//! `def` and `dcl`.
+
+use super::confuse::alike;
+use super::lexer::{Kind, number};
+use super::names::{self, Found};
+use super::operand::Written;
+use super::parser::Parser;
+use super::report::{counted, names as listed, quote};
+use super::rules;
+use super::statement::Head;
+use crate::diagnostic::{Diagnostic, Fix, Span};
+use crate::isa::WriteMask;
+use crate::program::{Dcl, Def, Register, Statement, Usage};
+
+impl Parser<'_> {
+    /// `def` behind its mnemonic.
+    pub(super) fn definition(&mut self, head: Head) {
+        if !self.begins_operands() {
+            return self.no_operands(head, 5);
+        }
+        let (operand, comma_read) = self.operand();
+        let register = match &operand {
+            Written::Register(r) if r.prefix.is_empty() && r.suffix.is_empty() => {
+                (!r.damaged && r.components.is_none()).then_some((r.register, r.span))
+            }
+            _ => None,
+        };
+        if register.is_none()
+            && let Written::Register(r) = &operand
+            && !r.damaged
+        {
+            let message = "`def` sets a whole register";
+            let help = "write the register alone, without modifier and components";
+            self.error(&rules::REGISTER, r.span, message, help);
+        }
+        let named = match &operand {
+            Written::Register(r) => Some(r.register),
+            _ => None,
+        };
+        if self.peek().kind == Kind::Comma {
+            self.bump();
+        } else if !comma_read && self.begins_number() && named.is_some() {
+            let at = self.span(self.previous()).at_end();
+            let message = "no comma behind the register of `def`";
+            let fix = Fix {
+                span: at,
+                replacement: ",".to_string(),
+                certain: true,
+            };
+            self.report(
+                Diagnostic::warning(&rules::SPELLING, at, message)
+                    .with_help("write one")
+                    .with_fix(fix),
+            );
+        }
+        let (values, whole) = self.numbers();
+        let span = self.span_from(head.token);
+        if whole && values.len() != 4 {
+            let verb = if values.len() == 1 { "is" } else { "are" };
+            let message = format!(
+                "`def` takes a register and 4 numbers, but {} {verb} written",
+                counted(values.len(), "number")
+            );
+            let help = if values.len() > 4 {
+                "a comma may stand for a decimal point"
+            } else {
+                "write all four components"
+            };
+            self.error(&rules::OPERAND_COUNT, span, message, help);
+        }
+        match (register, <[f32; 4]>::try_from(values)) {
+            (Some((register, register_span)), Ok(value)) if whole && !head.damaged => {
+                self.statements.push(Statement::Def(Def {
+                    register,
+                    value,
+                    co_issue: head.co_issue,
+                    span,
+                    register_span,
+                }));
+            }
+            _ => self.damage(span, named),
+        }
+    }
+
+    fn begins_number(&self) -> bool {
+        let next = self.peek();
+        match next.kind {
+            Kind::Number => true,
+            Kind::Minus | Kind::Plus | Kind::Dash => {
+                let after = self.token(self.at + 1);
+                after.kind == Kind::Number && !after.first
+            }
+            _ => false,
+        }
+    }
+
+    /// Numbers with commas between them, and whether all could be read.
+    fn numbers(&mut self) -> (Vec<f32>, bool) {
+        const MOST: usize = 64;
+        let (mut values, mut whole) = (Vec::new(), true);
+        while values.len() < MOST {
+            let ends = match self.peek().kind {
+                Kind::End | Kind::Version => true,
+                Kind::Word => {
+                    self.mnemonic(self.peek()).is_some()
+                        || self.peek().first && self.is_register(self.peek())
+                }
+                _ => false,
+            };
+            if ends {
+                break;
+            }
+            match self.number() {
+                Some(value) => values.push(value),
+                None => {
+                    whole = false;
+                    while !self.peek().first && self.peek().kind != Kind::Comma {
+                        self.at += 1;
+                    }
+                }
+            }
+            let next = self.peek();
+            if next.kind == Kind::Comma {
+                self.bump();
+            } else if !next.first
+                && values.len() < 4
+                && self.begins_number()
+                && next.kind != Kind::Plus
+            {
+                let at = self.span(self.previous()).at_end();
+                let fix = Fix {
+                    span: at,
+                    replacement: ",".to_string(),
+                    certain: next.kind == Kind::Number,
+                };
+                let message = format!("no comma before {}", self.quoted(next));
+                self.report(
+                    Diagnostic::error(&rules::SEPARATOR, at.to(self.span(next)), message)
+                        .with_help("write a comma between the two numbers")
+                        .with_fix(fix),
+                );
+            } else {
+                break;
+            }
+        }
+        (values, whole)
+    }
+
+    /// One number with its sign; `None` if it was reported.
+    fn number(&mut self) -> Option<f32> {
+        let first = self.peek();
+        let mut negative = false;
+        match first.kind {
+            Kind::Minus => negative = true,
+            Kind::Dash => {
+                let message = "this dash is not the minus of the keyboard";
+                self.misread(&rules::STRAY, self.span(first), message, "-");
+                negative = true;
+            }
+            _ => {}
+        }
+        if matches!(first.kind, Kind::Minus | Kind::Dash | Kind::Plus) {
+            self.bump();
+        }
+        // A damaged number may be several tokens: `O.5` is a word and a number.
+        let start = self.peek();
+        if !matches!(start.kind, Kind::Number | Kind::Word | Kind::Dot) {
+            let message = match start.kind {
+                Kind::End => "the listing ends where a number should stand".to_string(),
+                _ => format!("{} stands where a number should", self.quoted(start)),
+            };
+            let span = self.span(start);
+            self.report(Diagnostic::error(&rules::NUMBER, span, message));
+            return None;
+        }
+        let mut last = self.bump();
+        while !self.peek().first
+            && matches!(self.peek().kind, Kind::Number | Kind::Word | Kind::Dot)
+            && self.glued(last, self.peek())
+        {
+            last = self.bump();
+        }
+        let span = self.span_of(start, last);
+        let text = self.text_of(span);
+        let text = std::str::from_utf8(text).unwrap_or("");
+        let quoted = quote(text.as_bytes());
+        let value = decimal(text).or_else(|| {
+            let meant = digits_for(text);
+            let value = decimal(&meant);
+            if value.is_some() {
+                let message = format!("{quoted} is no number");
+                self.misread(&rules::NUMBER, span, message, &meant);
+            }
+            value
+        });
+        match value {
+            None if self.names_missing && text.starts_with(|c: char| c.is_ascii_alphabetic()) => {
+                None
+            }
+            None => {
+                let message = format!("{quoted} is no number");
+                let help = "write it in digits with a point, such as 0.5 or -2";
+                self.error(&rules::NUMBER, span, message, help);
+                None
+            }
+            Some(value) if !value.is_finite() => {
+                let message = format!("{quoted} is larger than any 32-bit float");
+                let help = "the largest is about 3.4e38";
+                self.error(&rules::NUMBER, span, message, help);
+                None
+            }
+            Some(value) => Some(if negative { -value } else { value }),
+        }
+    }
+
+    /// `dcl` behind its mnemonic, with the usage that stood in the same word.
+    pub(super) fn declaration(&mut self, head: Head, usage_text: &str) {
+        let start = self.base + head.token.end - (usage_text.len() as u32).min(head.token.end);
+        let usage_span = Span::new(start, self.base + head.token.end);
+        let quoted = quote(usage_text.as_bytes());
+        let usage = match names::usage(usage_text) {
+            Found::Exact(found) => Some(found),
+            Found::Misread(found, meant) => {
+                let message = format!("{quoted} is no usage");
+                self.misread(&rules::DECLARATION, usage_span, message, &meant);
+                Some(found)
+            }
+            Found::No => {
+                let message = match usage_text {
+                    "" => "`dcl` has no usage".to_string(),
+                    _ => format!("{quoted} is no usage"),
+                };
+                let help = format!("usages are {}", listed(Usage::all().map(|(_, name)| name)));
+                self.error(&rules::DECLARATION, head.span, message, &help);
+                None
+            }
+        };
+        if let Some((_, None)) = usage {
+            let message = format!("{quoted} has an index above 15");
+            self.report(Diagnostic::error(&rules::DECLARATION, usage_span, message));
+        }
+        if head.co_issue {
+            let message = "a declaration is not the second instruction of a pair";
+            let help = "remove the `+`";
+            self.error(&rules::CO_ISSUE, head.span, message, help);
+        }
+        if !self.begins_operands() {
+            return self.no_operands(head, 1);
+        }
+        let list = self.operand_list(Some(1));
+        let register: Option<Register> = list.destination();
+        let span = self.span_from(head.token);
+        if let [operand] = &list.operands[..]
+            && !list.broken
+        {
+            let destination = self.destination(operand);
+            if let (Some((usage, Some(usage_index))), Some(destination), false) =
+                (usage, destination, head.co_issue)
+            {
+                let mask: WriteMask = destination.mask;
+                self.statements.push(Statement::Dcl(Dcl {
+                    usage,
+                    usage_index,
+                    register: destination.register,
+                    mask,
+                    span,
+                }));
+                return;
+            }
+        } else if !list.broken {
+            let message = format!(
+                "`dcl` takes one register, but {} are written",
+                list.operands.len()
+            );
+            self.report(Diagnostic::error(&rules::OPERAND_COUNT, span, message));
+        }
+        self.damage(span, register);
+    }
+}
+
+/// A number without sign as the grammar has it.
+fn decimal(text: &str) -> Option<f32> {
+    match number(text.as_bytes()) {
+        Ok(([], _)) => text.trim_end_matches(['f', 'F']).parse().ok(),
+        _ => None,
+    }
+}
+
+/// The text with letters that look like digits turned into them; an `f` at the end stays.
+fn digits_for(text: &str) -> String {
+    let digit = |c: char| {
+        let shape = |d: &char| c.is_ascii() && alike(c as u8, *d as u8);
+        ('0'..='9').find(shape).unwrap_or(c)
+    };
+    let mut meant: String = text.chars().map(digit).collect();
+    if meant.ends_with('t') {
+        meant.pop();
+        meant.push('f');
+    }
+    meant
+}

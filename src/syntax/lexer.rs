@@ -1,0 +1,326 @@
+//! Bytes to tokens.
+//!
+//! Bytes, not characters: comments of the time are in legacy code pages. White space and comments are dropped; each
+//! token knows whether it begins a line, because lines help to recover from damage though the grammar has none.
+
+use super::report::{Reports, quote};
+use super::rules;
+use crate::diagnostic::{Diagnostic, Span};
+use nom::branch::alt;
+use nom::bytes::complete::{tag, take_till, take_until, take_while, take_while1};
+use nom::character::complete::{digit0, digit1, one_of};
+use nom::combinator::{map, opt, recognize, value};
+use nom::{IResult, Parser};
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// `ps.1.4`, `vs_1_1` and everything that begins like one.
+    Version,
+    /// Letters, digits and underscores; digits first too if it is no number (`1rp`).
+    Word,
+    /// A number without its sign.
+    Number,
+    Comma,
+    Dot,
+    Plus,
+    Minus,
+    /// A dash of typesetting that stands for a minus.
+    Dash,
+    Open,
+    Close,
+    Colon,
+    /// A run of bytes that no listing holds outside of comments.
+    Junk,
+    /// Behind the last token.
+    End,
+}
+
+/// A token.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Token {
+    pub(super) kind: Kind,
+    /// Offset in the text.
+    pub(super) start: u32,
+    pub(super) end: u32,
+    /// Line from 1.
+    pub(super) line: u32,
+    /// Whether it is the first of its line.
+    pub(super) first: bool,
+}
+
+/// The tokens of a text.
+pub(super) struct Lexed {
+    /// Never empty: [`Kind::End`] is the last.
+    pub(super) tokens: Vec<Token>,
+    /// Whether a directive was met that may define names.
+    pub(super) names_missing: bool,
+}
+
+/// More tokens than the largest text of instructions that any version takes, by far; bounds the memory.
+const MOST_TOKENS: usize = 1 << 20;
+
+/// Splits a text into tokens.
+pub(super) fn lex(text: &[u8], base: u32, reports: &mut Reports) -> Lexed {
+    let mut lexer = Lexer {
+        text,
+        base,
+        line: 1,
+        reports,
+        directives: Vec::new(),
+    };
+    let mut tokens = Vec::new();
+    let mut rest = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+    let mut first = true;
+    loop {
+        let (after, new_line) = lexer.skip_space(rest, first);
+        first |= new_line;
+        rest = after;
+        let start = lexer.offset(rest);
+        let token = |kind, end| Token {
+            kind,
+            start,
+            end,
+            line: lexer.line,
+            first,
+        };
+        // `token` fails only at the end of the text.
+        let Ok((after, kind)) = any_token(rest) else {
+            tokens.push(Token {
+                first: true,
+                ..token(Kind::End, start)
+            });
+            break;
+        };
+        if tokens.len() == MOST_TOKENS {
+            tokens.push(Token {
+                first: true,
+                ..token(Kind::End, start)
+            });
+            let message = format!(
+                "more than {MOST_TOKENS} words and signs: no listing is so long, the rest is not read"
+            );
+            let span = Span::new(base + start, base + start + 1);
+            lexer
+                .reports
+                .push(Diagnostic::error(&rules::NOT_A_LISTING, span, message));
+            break;
+        }
+        tokens.push(token(kind, lexer.offset(after)));
+        rest = after;
+        first = false;
+    }
+    Lexed {
+        tokens,
+        names_missing: !lexer.directives.is_empty(),
+    }
+}
+
+struct Lexer<'a, 'r> {
+    text: &'a [u8],
+    base: u32,
+    line: u32,
+    reports: &'r mut Reports,
+    /// Names of the directives that were refused so far: one report each.
+    directives: Vec<String>,
+}
+
+impl<'a> Lexer<'a, '_> {
+    fn offset(&self, rest: &[u8]) -> u32 {
+        (self.text.len() - rest.len()) as u32
+    }
+
+    /// Skips white space, comments and directives; tells whether a line ended.
+    fn skip_space(&mut self, mut rest: &'a [u8], mut first: bool) -> (&'a [u8], bool) {
+        let mut new_line = false;
+        loop {
+            let before = rest.len();
+            rest = space(rest).map_or(rest, |(after, _)| after);
+            if let Some(after) = rest.strip_prefix(b"\n") {
+                self.line += 1;
+                rest = after;
+                new_line = true;
+                first = true;
+            } else if let Ok((after, _)) = line_comment(rest) {
+                rest = after;
+            } else if rest.starts_with(b"/*") {
+                let after = self.block_comment(rest);
+                let lines = rest[..rest.len() - after.len()].iter();
+                let lines = lines.filter(|b| **b == b'\n').count() as u32;
+                self.line += lines;
+                new_line |= lines > 0;
+                first |= lines > 0;
+                rest = after;
+            } else if first && rest.starts_with(b"#") {
+                rest = self.directive(rest);
+            } else if rest.len() == before {
+                return (rest, new_line);
+            }
+        }
+    }
+
+    fn block_comment(&mut self, rest: &'a [u8]) -> &'a [u8] {
+        if let Ok((after, _)) = closed_comment(rest) {
+            return after;
+        }
+        let start = self.base + self.offset(rest);
+        let message = "this comment has no end: everything behind it is lost";
+        let report = Diagnostic::error(&rules::COMMENT_OPEN, Span::new(start, start + 2), message)
+            .with_help("write */ where the comment ends");
+        self.reports.push(report);
+        &[]
+    }
+
+    /// A line that begins with `#`, with the lines that it is continued on.
+    fn directive(&mut self, rest: &'a [u8]) -> &'a [u8] {
+        let (mut after, (name, _)) = match directive_name(rest) {
+            Ok((after, name)) => (after, (name, ())),
+            Err(_) => (&rest[1..], (&rest[..0], ())),
+        };
+        let text = String::from_utf8_lossy(name).to_ascii_lowercase();
+        if !matches!(text.as_str(), "line" | "pragma" | "") && !self.directives.contains(&text) {
+            let start = self.base + self.offset(rest);
+            let span = Span::new(start, self.base + self.offset(after));
+            let message = format!("#{} is not supported yet", quote(name).trim_matches('`'));
+            let help = "run the listing through a C preprocessor first, or write out what the directive stands for";
+            let report = Diagnostic::error(&rules::DIRECTIVE, span, message).with_help(help);
+            self.reports.push(report);
+            if self.directives.len() < 64 {
+                self.directives.push(text);
+            }
+        }
+        loop {
+            let line;
+            (after, line) = to_line_end(after).unwrap_or((&[], after));
+            let line = line.strip_suffix(b"\r").unwrap_or(line);
+            match after.strip_prefix(b"\n") {
+                Some(next) if line.ends_with(b"\\") => {
+                    self.line += 1;
+                    after = next;
+                }
+                _ => return after,
+            }
+        }
+    }
+}
+
+// --- the grammar of single tokens ---
+
+/// Blanks within a line; a no-break space and the end-of-file mark of DOS among them.
+fn space(input: &[u8]) -> IResult<&[u8], ()> {
+    value(
+        (),
+        alt((
+            take_while1(|b: u8| matches!(b, b' ' | b'\t' | b'\r' | 0x0B | 0x0C | 0x1A)),
+            tag(&b"\xC2\xA0"[..]),
+        )),
+    )
+    .parse(input)
+}
+
+fn to_line_end(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    take_till(|b| b == b'\n').parse(input)
+}
+
+fn line_comment(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    recognize((alt((tag(";"), tag("//"))), to_line_end)).parse(input)
+}
+
+fn closed_comment(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    recognize((tag("/*"), take_until("*/"), tag("*/"))).parse(input)
+}
+
+fn directive_name(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    let (input, _) = (tag("#"), take_while(|b| b == b' ' || b == b'\t')).parse(input)?;
+    take_while(|b: u8| b.is_ascii_alphanumeric() || b == b'_').parse(input)
+}
+
+fn is_word(b: u8) -> bool {
+    b.is_ascii_alphanumeric() || matches!(b, b'_' | b'|')
+}
+
+/// `vs` or `ps`, perhaps with the `x` of the Xbox, a separator and what follows without a blank.
+fn version(input: &[u8]) -> IResult<&[u8], Kind> {
+    let (input, _) = (
+        opt(one_of("xX")),
+        one_of("vVpP"),
+        one_of("sS"),
+        one_of("._"),
+        one_of("0123456789lIiOo|"),
+        take_while(|b: u8| is_word(b) || b == b'.'),
+    )
+        .parse(input)?;
+    Ok((input, Kind::Version))
+}
+
+/// A number without sign.
+pub(super) fn number(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    recognize((
+        alt((
+            recognize((digit1, opt((tag("."), digit0)))),
+            recognize((tag("."), digit1)),
+        )),
+        opt((one_of("eE"), opt(one_of("+-")), digit1)),
+        opt(one_of("fF")),
+    ))
+    .parse(input)
+}
+
+/// A number, or a word that begins like one.
+fn number_or_word(input: &[u8]) -> IResult<&[u8], Kind> {
+    let (after, text) = number(input)?;
+    let (rest, tail) = take_while(is_word).parse(after)?;
+    let kind = if tail.is_empty() {
+        Kind::Number
+    } else if text.starts_with(b".") {
+        // `.2x` behind a register is a dot with letters; the parser puts them together.
+        return map(tag("."), |_| Kind::Dot).parse(input);
+    } else {
+        Kind::Word
+    };
+    Ok((rest, kind))
+}
+
+fn word(input: &[u8]) -> IResult<&[u8], Kind> {
+    value(Kind::Word, take_while1(is_word)).parse(input)
+}
+
+fn sign(input: &[u8]) -> IResult<&[u8], Kind> {
+    alt((
+        value(Kind::Comma, tag(",")),
+        value(Kind::Dot, tag(".")),
+        value(Kind::Plus, tag("+")),
+        value(Kind::Minus, tag("-")),
+        value(Kind::Open, tag("[")),
+        value(Kind::Close, tag("]")),
+        value(Kind::Colon, tag(":")),
+    ))
+    .parse(input)
+}
+
+/// En dash, em dash, hyphen and minus sign in UTF-8, and the en dash of code page 1252.
+fn dash(input: &[u8]) -> IResult<&[u8], Kind> {
+    value(
+        Kind::Dash,
+        alt((
+            tag(&b"\xE2\x80\x90"[..]),
+            tag(&b"\xE2\x80\x93"[..]),
+            tag(&b"\xE2\x80\x94"[..]),
+            tag(&b"\xE2\x88\x92"[..]),
+            tag(&b"\x96"[..]),
+        )),
+    )
+    .parse(input)
+}
+
+fn junk(input: &[u8]) -> IResult<&[u8], Kind> {
+    let plain =
+        |b: u8| !(is_word(b) || b.is_ascii_whitespace() || b",.+-[]:;#/\x0B\x1A\x96".contains(&b));
+    // A single `/` or `#` is one too: what they begin was tried before.
+    let one = alt((tag("/"), tag("#")));
+    value(Kind::Junk, alt((take_while1(plain), one))).parse(input)
+}
+
+fn any_token(input: &[u8]) -> IResult<&[u8], Kind> {
+    alt((version, number_or_word, word, sign, dash, junk)).parse(input)
+}

@@ -1,0 +1,372 @@
+//! What words mean: versions, mnemonics with their suffixes, registers, component letters.
+
+use super::confuse::{alike, distance, only_reading, reads_as};
+use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
+use crate::isa::operand::{RGBA, XYZW};
+use crate::isa::register::RAST_OUT;
+use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
+use crate::program::Usage;
+
+/// A name as it was found.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Found<T> {
+    /// Written so.
+    Exact(T),
+    /// Written otherwise, but it can be nothing else; with the text that was meant.
+    Misread(T, String),
+    /// No name, or more than one could be meant.
+    No,
+}
+
+impl<T> Found<T> {
+    fn of(exact: Option<T>, reading: impl FnOnce() -> Option<(T, String)>) -> Self {
+        match exact {
+            Some(found) => Self::Exact(found),
+            None => reading().map_or(Self::No, |(found, name)| Self::Misread(found, name)),
+        }
+    }
+}
+
+// --- versions ---
+
+/// How a version instruction is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum VersionText {
+    /// As it should be.
+    Exact(Version),
+    /// Dots and underscores mixed.
+    Mixed(Version),
+    /// Misread, but it can be no other.
+    Misread(Version),
+    /// No version of Direct3D 8.
+    Unknown,
+}
+
+/// Reads a version; `Unknown` also for text that is none at all.
+pub(super) fn version(text: &[u8]) -> VersionText {
+    let text = text.to_ascii_lowercase();
+    let Ok(text) = std::str::from_utf8(&text) else {
+        return VersionText::Unknown;
+    };
+    let underscores = |v: Version| v.name().replace('.', "_");
+    if let Some(v) = Version::all().find(|v| text == v.name() || text == underscores(*v)) {
+        return VersionText::Exact(v);
+    }
+    let is_separator = |c: char| matches!(c, '.' | '_' | ',' | '-' | ' ' | '\t');
+    let bare = |text: &str| text.replace(is_separator, "");
+    let bare_text = bare(text);
+    let names = || Version::all().map(|v| (v, bare(v.name())));
+    if let Some((v, _)) = names().find(|(_, name)| *name == bare_text) {
+        let mixed = text.len() == v.name().len()
+            && text.chars().filter(|c| is_separator(*c)).count() == 2
+            && !text.contains([' ', ',', '-', '\t']);
+        return if mixed {
+            VersionText::Mixed(v)
+        } else {
+            VersionText::Misread(v)
+        };
+    }
+    // Only the digits and the s are read by their shape: p and v are what tells the kinds apart.
+    match only_reading(&bare_text, names()) {
+        Some((v, _)) => VersionText::Misread(v),
+        None => VersionText::Unknown,
+    }
+}
+
+// --- mnemonics ---
+
+/// The opcode of a mnemonic without suffixes.
+pub(super) fn opcode(stem: &str, version: Version) -> Found<Opcode> {
+    let all = |here: bool| {
+        Opcode::all()
+            .filter(move |op| op.form(version).is_some() == here && *op != Opcode::Dcl)
+            .map(|op| (op, op.mnemonic().to_string()))
+    };
+    Found::of(Opcode::from_mnemonic(stem), || {
+        only_reading(stem, all(true)).or_else(|| only_reading(stem, all(false)))
+    })
+}
+
+/// Mnemonics of the version that differ from the word by a slip of the hand.
+pub(super) fn near_mnemonics(stem: &str, version: Version) -> Vec<&'static str> {
+    let most = if stem.len() > 4 { 2 } else { 1 };
+    let near = |here: bool| -> Vec<&'static str> {
+        Opcode::all()
+            .filter(|op| op.form(version).is_some() == here && *op != Opcode::Dcl)
+            .map(Opcode::mnemonic)
+            .filter(|name| name.len() > 2 && distance(stem, name) <= most)
+            .take(4)
+            .collect()
+    };
+    let here = near(true);
+    if here.is_empty() { near(false) } else { here }
+}
+
+/// How many operands an opcode has, the destination included. It is the same in every version that has it.
+pub(super) fn operand_count(opcode: Opcode) -> usize {
+    opcode.row().forms.first().map_or(0, |form| {
+        usize::from(form.destination.is_some()) + form.sources.len()
+    })
+}
+
+/// A suffix of a mnemonic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ResultSuffix {
+    /// `_x2` … `_d8`
+    Shift(i8),
+    /// `_sat`
+    Saturate,
+}
+
+/// The suffixes of mnemonics with their text, underscore included.
+pub(super) fn result_suffixes() -> impl Iterator<Item = (ResultSuffix, String)> {
+    let shifts = SHIFTS
+        .iter()
+        .map(|row| (ResultSuffix::Shift(row.shift), row.suffix.to_string()));
+    shifts.chain([(ResultSuffix::Saturate, SATURATE_SUFFIX.to_string())])
+}
+
+/// The result suffix of this text, underscore included.
+pub(super) fn result_suffix(text: &str) -> Found<ResultSuffix> {
+    let exact = result_suffixes().find(|(_, name)| name.eq_ignore_ascii_case(text));
+    Found::of(exact.map(|(suffix, _)| suffix), || {
+        only_reading(text, result_suffixes())
+    })
+}
+
+/// `mulx2` → `mul_x2`: a mnemonic whose suffixes have lost their underscores.
+pub(super) fn joined_suffixes(word: &str) -> Option<String> {
+    const LONGEST: usize = 24;
+    if word.len() > LONGEST {
+        return None;
+    }
+    let mut stem = word.to_ascii_lowercase();
+    let mut tail = String::new();
+    while Opcode::from_mnemonic(&stem).is_none() {
+        let lost = |(_, suffix): (_, String)| -> Option<String> {
+            stem.strip_suffix(suffix.trim_start_matches('_'))
+                .filter(|rest| !rest.is_empty())
+                .map(|rest| {
+                    tail = format!("{suffix}{tail}");
+                    rest.trim_end_matches('_').to_string()
+                })
+        };
+        stem = result_suffixes().find_map(lost)?;
+    }
+    (!tail.is_empty()).then(|| stem + &tail)
+}
+
+/// Instructions of later shader models and of the Xbox, which people try.
+const FOREIGN_MNEMONICS: [(&str, &[&str]); 2] = [
+    (
+        "a later shader model",
+        &[
+            "abs", "break", "call", "callnz", "crs", "defb", "defi", "dp2add", "dsx", "dsy",
+            "else", "endif", "endloop", "endrep", "if", "ifc", "label", "loop", "mova", "nrm",
+            "pow", "ret", "setp", "sgn", "sincos", "texldb", "texldd", "texldl", "texldp",
+        ],
+    ),
+    (
+        "the Xbox",
+        &["dph", "rcc", "xdd", "xdm", "xfc", "xmma", "xmmc"],
+    ),
+];
+
+/// Where an instruction belongs that Direct3D 8 does not have.
+pub(super) fn foreign_mnemonic(stem: &str) -> Option<&'static str> {
+    let has = |names: &[&str]| names.iter().any(|n| n.eq_ignore_ascii_case(stem));
+    FOREIGN_MNEMONICS
+        .iter()
+        .find(|(_, names)| has(names))
+        .map(|(owner, _)| *owner)
+}
+
+// --- registers ---
+
+/// A word that names a register.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Name {
+    /// A register by its number.
+    Register(RegisterFile, u32),
+    /// The letters alone: `c` of `c[12]`.
+    File(RegisterFile),
+    /// A number that no register can have.
+    TooLarge,
+}
+
+/// The register that a word names, whether the version has it or not.
+pub(super) fn exact_register(stem: &str) -> Option<Name> {
+    if let Some(i) = RAST_OUT.iter().position(|n| n.eq_ignore_ascii_case(stem)) {
+        return Some(Name::Register(RegisterFile::RastOut, i as u32));
+    }
+    let of_file = |file: RegisterFile| {
+        let prefix = file.row().prefix;
+        let (letters, digits) = stem.split_at_checked(prefix.len())?;
+        let fits = letters.eq_ignore_ascii_case(prefix)
+            && digits.bytes().all(|b| b.is_ascii_digit())
+            && file != RegisterFile::RastOut;
+        let name = || match digits.parse() {
+            _ if digits.is_empty() => Name::File(file),
+            Ok(number) => Name::Register(file, number),
+            Err(_) => Name::TooLarge,
+        };
+        fits.then(name)
+    };
+    RegisterFile::all().find_map(of_file)
+}
+
+/// The register that a word names or can only be a misreading of, among those of the version.
+pub(super) fn register(stem: &str, version: Version) -> Found<Name> {
+    let all = || {
+        RegisterFile::all().flat_map(move |file| {
+            (0..file.count(version)).map(move |i| (Name::Register(file, i), file.register_name(i)))
+        })
+    };
+    Found::of(exact_register(stem), || only_reading(stem, all()))
+}
+
+/// What a register of a later shader model is for.
+pub(super) fn foreign_register(stem: &str) -> Option<&'static str> {
+    let stem = stem.to_ascii_lowercase();
+    if matches!(stem.as_str(), "odepth" | "vpos" | "vface" | "al") {
+        return Some("a register of later shader models");
+    }
+    let numbered = |prefix: &str| {
+        stem.strip_prefix(prefix)
+            .is_some_and(|n| !n.is_empty() && n.len() < 4 && n.bytes().all(|b| b.is_ascii_digit()))
+    };
+    [
+        ("s", "a sampler register of later shader models; Direct3D 8 takes the stage from the number of t# or r#"),
+        ("b", "a boolean register of later shader models"),
+        ("i", "an integer register of later shader models"),
+        ("p", "a predicate register of later shader models"),
+        ("oc", "a colour output of later shader models; here a pixel shader leaves its result in r0"),
+        ("o", "an output register of later shader models; here they are called oPos, oFog, oPts, oD# and oT#"),
+    ]
+    .into_iter()
+    .find(|(prefix, _)| numbered(prefix))
+    .map(|(_, what)| what)
+}
+
+// --- suffixes and letters of operands ---
+
+/// The source suffix of this text, underscore included, in its first spelling.
+pub(super) fn source_suffix(text: &str) -> Found<&'static str> {
+    let all = || SourceModifier::suffixes().map(|s| (s, s.to_string()));
+    let exact = SourceModifier::suffixes().find(|s| s.eq_ignore_ascii_case(text));
+    Found::of(exact, || only_reading(text, all()))
+}
+
+/// Whether a word is a suffix without its underscore.
+pub(super) fn is_source_suffix_stem(word: &str) -> bool {
+    SourceModifier::suffixes().any(|s| s.trim_start_matches('_').eq_ignore_ascii_case(word))
+}
+
+/// Component letters behind a dot: up to four components.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Letters {
+    /// As written.
+    Exact(Vec<u8>),
+    /// Misread, but they can be no others; with the text that was meant.
+    Misread(Vec<u8>, String),
+    /// Letters of both sets.
+    Mixed,
+    /// More than four.
+    TooMany,
+    /// `stpq` and `uvwq`, which other languages have.
+    OtherLanguage,
+    /// No component letters.
+    No,
+}
+
+/// Reads the letters behind a dot.
+pub(super) fn letters(text: &str) -> Letters {
+    let exact = |set: [char; 4]| -> Option<Vec<u8>> {
+        let index = |c: char| {
+            let at = set.iter().position(|s| s.eq_ignore_ascii_case(&c));
+            at.map(|i| i as u8)
+        };
+        text.chars().map(index).collect()
+    };
+    let sets = [XYZW, RGBA];
+    let in_sets = |c: char| sets.iter().flatten().any(|s| s.eq_ignore_ascii_case(&c));
+    if let Some(components) = sets.into_iter().find_map(exact) {
+        return match components.len() {
+            0 => Letters::No,
+            1..=4 => Letters::Exact(components),
+            _ => Letters::TooMany,
+        };
+    }
+    if text.chars().all(in_sets) {
+        return Letters::Mixed;
+    }
+    let mut readings = sets.into_iter().filter_map(|set| misread(text, set));
+    match (readings.next(), readings.next()) {
+        (Some((components, meant)), None) => Letters::Misread(components, meant),
+        _ if text
+            .chars()
+            .all(|c| "stpquvw".contains(c.to_ascii_lowercase())) =>
+        {
+            Letters::OtherLanguage
+        }
+        _ => Letters::No,
+    }
+}
+
+/// The components of one set that a text can be a misreading of.
+fn misread(text: &str, set: [char; 4]) -> Option<(Vec<u8>, String)> {
+    if text.len() > 8 {
+        return None;
+    }
+    let bytes = text.as_bytes();
+    let (mut at, mut components, mut meant) = (0, Vec::new(), String::new());
+    while let Some(&byte) = bytes.get(at) {
+        let two = bytes
+            .get(at..at + 2)
+            .and_then(|t| std::str::from_utf8(t).ok());
+        let wide = |c: &char| two.is_some_and(|t| reads_as(t, &c.to_string()));
+        let (i, length) = match set.iter().position(wide) {
+            Some(i) => (i, 2),
+            None => (one_letter(byte, set)?, 1),
+        };
+        components.push(i as u8);
+        meant.push(set[i]);
+        at += length;
+    }
+    (1..=4)
+        .contains(&components.len())
+        .then_some((components, meant))
+}
+
+/// The letter of a set that a byte is, or else the only one that it looks like.
+fn one_letter(byte: u8, set: [char; 4]) -> Option<usize> {
+    let exact = |c: &char| byte.eq_ignore_ascii_case(&(*c as u8));
+    if let Some(i) = set.iter().position(exact) {
+        return Some(i);
+    }
+    let mut fitting = (0..4).filter(|&i| alike(byte, set[i] as u8));
+    let first = fitting.next();
+    first.filter(|_| fitting.next().is_none())
+}
+
+/// The usage of a `dcl` with its index: `texcoord0` is texture coordinates 0.
+pub(super) fn usage(text: &str) -> Found<(Usage, Option<u8>)> {
+    let stem = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    let index = text.strip_prefix(stem).unwrap_or("");
+    // `None` for an index that is no declaration index; the caller reports it.
+    let number = match index {
+        "" => Some(0),
+        _ => index.parse().ok().filter(|i| *i < 16),
+    };
+    let all = || Usage::all().map(|(usage, name)| (usage, name.to_string()));
+    match Found::of(Usage::from_name(stem), || only_reading(stem, all())) {
+        Found::Exact(usage) => Found::Exact((usage, number)),
+        Found::Misread(usage, name) => Found::Misread((usage, number), name + index),
+        Found::No => Found::No,
+    }
+}
+
+/// Whether letters and kind allow a suffix on a source: vertex shaders have none.
+pub(super) fn has_source_suffixes(version: Version) -> bool {
+    version.kind() == ShaderKind::Pixel
+}

@@ -1,0 +1,504 @@
+//! Operands as they are written, before it is known which is the destination.
+
+use super::lexer::{Kind, Token};
+use super::names::{self, Found, Letters, Name};
+use super::parser::Parser;
+use super::report::{names as listed, quote};
+use super::rules;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::isa::{RegisterFile, SourceModifier};
+use crate::program::Register;
+
+/// An operand as it is written.
+#[derive(Clone, Debug)]
+pub(super) enum Written {
+    /// A register with what belongs to it.
+    Register(WrittenRegister),
+    /// A number, where it stands.
+    Number(Span),
+    /// Something that was reported.
+    Damaged,
+}
+
+/// A register as it is written.
+#[derive(Clone, Debug)]
+pub(super) struct WrittenRegister {
+    pub(super) span: Span,
+    /// Nothing, `-` or `1-`.
+    pub(super) prefix: &'static str,
+    pub(super) register: Register,
+    /// Nothing or a source suffix.
+    pub(super) suffix: &'static str,
+    /// The letters behind the dot.
+    pub(super) components: Option<Vec<u8>>,
+    /// Where they stand.
+    pub(super) components_span: Span,
+    /// Whether something in it was reported that cannot be repaired.
+    pub(super) damaged: bool,
+}
+
+impl<'a> Parser<'a> {
+    /// Reads one operand; tells also whether a comma behind it was read that is written otherwise.
+    pub(super) fn operand(&mut self) -> (Written, bool) {
+        let first = self.peek();
+        let Some((prefix, prefix_damaged)) = self.prefix() else {
+            return (Written::Damaged, false);
+        };
+        let token = self.peek();
+        if token.kind == Kind::Number && (!token.first || self.previous().kind == Kind::Comma) {
+            self.bump();
+            return (Written::Number(self.span_from(first)), false);
+        }
+        if token.kind != Kind::Word {
+            let message = match token.kind {
+                Kind::End => "the listing ends where a register should stand".to_string(),
+                _ => format!("{} stands where a register should", self.quoted(token)),
+            };
+            let span = self.span(token);
+            self.report(Diagnostic::error(&rules::REGISTER, span, message));
+            self.skip_to_comma();
+            return (Written::Damaged, false);
+        }
+        self.bump();
+        let Some((register, suffix)) = self.register(token) else {
+            self.skip_to_comma();
+            return (Written::Damaged, false);
+        };
+        let mut operand = WrittenRegister {
+            span: Span::default(),
+            prefix,
+            register,
+            suffix: "",
+            components: None,
+            components_span: Span::default(),
+            damaged: prefix_damaged,
+        };
+        if let Some((suffix, at)) = suffix {
+            self.suffix(&mut operand, suffix, at);
+        }
+        self.index(&mut operand);
+        let next = self.peek();
+        if next.kind == Kind::Word
+            && self.glued(self.previous(), next)
+            && self.word(next).starts_with('_')
+        {
+            self.bump();
+            self.suffix(&mut operand, self.word(next), self.span(next));
+        }
+        self.lost_underscore(&mut operand);
+        let comma_read = self.selector(&mut operand);
+        self.lost_underscore(&mut operand);
+        operand.span = self.span_from(first);
+        (Written::Register(operand), comma_read)
+    }
+
+    /// `-` and `1-`, and whether something else was found and reported. `None` if no operand can follow.
+    fn prefix(&mut self) -> Option<(&'static str, bool)> {
+        let first = self.peek();
+        let mut minuses = 0;
+        loop {
+            let token = self.peek();
+            match token.kind {
+                Kind::Minus => {}
+                Kind::Dash => {
+                    let message = "this dash is not the minus of the keyboard";
+                    self.misread(&rules::STRAY, self.span(token), message, "-");
+                }
+                _ => break,
+            }
+            self.bump();
+            minuses += 1;
+        }
+        let one = self.peek();
+        let minus = self.token(self.at + 1);
+        if one.kind == Kind::Number
+            && matches!(minus.kind, Kind::Minus | Kind::Dash)
+            && !minus.first
+        {
+            self.bump();
+            self.bump();
+            let span = self.span_of(first, minus);
+            let text = self.word(one);
+            let value: Option<f32> = text.trim_end_matches(['f', 'F']).parse().ok();
+            let extra = matches!(self.peek().kind, Kind::Minus | Kind::Dash);
+            while matches!(self.peek().kind, Kind::Minus | Kind::Dash) {
+                self.bump();
+            }
+            if minuses > 0 || extra {
+                let message = "`1-` and `-` stand before one register";
+                let help =
+                    "`1-` goes with no other modifier; compute one of them into a register first";
+                self.error(&rules::SOURCE_MODIFIER, span, message, help);
+            } else if value != Some(1.0) {
+                let message = format!("`{text} -` is no modifier: only `1-` is");
+                let help = "define the number with `def` and use `sub`";
+                self.error(&rules::SOURCE_MODIFIER, span, message, help);
+            } else {
+                if text != "1" {
+                    let message = format!("`{text}-` is read as `1-`");
+                    self.report(
+                        Diagnostic::warning(&rules::SPELLING, span, message)
+                            .with_help("write `1-`"),
+                    );
+                }
+                return Some(("1-", false));
+            }
+            return Some(("1-", true));
+        }
+        if minuses > 1 {
+            let span = self.span_from(first);
+            let message = format!("{minuses} minus signs stand before one register");
+            let help = "two cancel out: write one or none";
+            self.error(&rules::SOURCE_MODIFIER, span, message, help);
+            if self.peek().kind != Kind::Word || self.peek().first {
+                self.skip_to_comma();
+                return None;
+            }
+        }
+        Some((if minuses > 0 { "-" } else { "" }, minuses > 1))
+    }
+
+    /// Goes to the next comma of the line, or to its end.
+    fn skip_to_comma(&mut self) {
+        while !self.peek().first && self.peek().kind != Kind::Comma {
+            self.at += 1;
+        }
+    }
+
+    /// The register of a word, with the suffix in the same word.
+    fn register(&mut self, token: Token) -> Option<(Register, Option<(&'a str, Span)>)> {
+        let word = self.word(token);
+        let (stem, suffix) = word.split_at(word.find('_').unwrap_or(word.len()));
+        let suffix_start = self.base + token.start + stem.len() as u32;
+        let suffix_span = Span::new(suffix_start, self.base + token.end);
+        let suffix = (!suffix.is_empty()).then_some((suffix, suffix_span));
+        let stem_span = Span::new(self.base + token.start, suffix_start);
+        let name = match names::register(stem, self.version) {
+            Found::Exact(name) => name,
+            Found::Misread(name, meant) => {
+                let message = format!("`{stem}` is no register");
+                self.misread(&rules::REGISTER, stem_span, message, &meant);
+                name
+            }
+            Found::No => {
+                self.unknown_register(stem, stem_span);
+                return None;
+            }
+        };
+        match name {
+            Name::Register(file, index) => Some((Register::new(file, index), suffix)),
+            Name::File(file) if self.peek().kind == Kind::Open && suffix.is_none() => {
+                Some((Register::new(file, 0), None))
+            }
+            Name::File(file) => self.apart(token, file).map(|register| (register, None)),
+            Name::TooLarge => {
+                let message = format!(
+                    "{} has a number that no register has",
+                    quote(stem.as_bytes())
+                );
+                self.report(Diagnostic::error(&rules::REGISTER, stem_span, message));
+                None
+            }
+        }
+    }
+
+    /// `c 12`: a register whose number stands apart.
+    fn apart(&mut self, token: Token, file: RegisterFile) -> Option<Register> {
+        let next = self.peek();
+        let digits = self.word(next);
+        let number = digits
+            .parse()
+            .ok()
+            .filter(|_| !next.first && matches!(next.kind, Kind::Number | Kind::Word));
+        let Some(number) = number else {
+            let message = format!("{} has no number", self.quoted(token));
+            let help = format!("write which one: `{}`", file.register_name(0));
+            self.error(&rules::REGISTER, self.span(token), message, &help);
+            return None;
+        };
+        self.bump();
+        let meant = file.register_name(number);
+        let message = format!("the number of `{meant}` stands apart");
+        self.misread(&rules::REGISTER, self.span_of(token, next), message, &meant);
+        Some(Register::new(file, number))
+    }
+
+    fn unknown_register(&mut self, stem: &str, span: Span) {
+        let macro_name = self.names_missing
+            && stem.bytes().any(|b| b.is_ascii_alphabetic())
+            && names::foreign_register(stem).is_none();
+        if macro_name {
+            return;
+        }
+        let quoted = quote(stem.as_bytes());
+        let report = match names::foreign_register(stem) {
+            Some(what) => Diagnostic::error(&rules::REGISTER, span, format!("{quoted} is {what}")),
+            None => {
+                let report =
+                    Diagnostic::error(&rules::REGISTER, span, format!("{quoted} is no register"));
+                // `mov r0, rgb, r1`: the letters of a mask with a comma before them.
+                let letters = matches!(names::letters(stem), Letters::Exact(_));
+                if letters && stem.len() > 1 {
+                    report.with_help(format!(
+                        "the comma before it may stand for a point: `.{stem}`"
+                    ))
+                } else {
+                    let of_version: Vec<&str> = RegisterFile::all()
+                        .filter(|f| f.count(self.version) > 0 && *f != RegisterFile::RastOut)
+                        .map(|f| f.row().prefix)
+                        .collect();
+                    let named = if RegisterFile::RastOut.count(self.version) > 0 {
+                        ", and oPos, oFog, oPts"
+                    } else {
+                        ""
+                    };
+                    report.with_help(format!(
+                        "registers of {} begin with {} and have a number{named}",
+                        self.version,
+                        of_version.join(", ")
+                    ))
+                }
+            }
+        };
+        self.report(report);
+    }
+
+    /// One source suffix; a second one, or an unknown one, is reported.
+    fn suffix(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
+        // More than one: `_bx2_x2`.
+        let parts = text.split('_').filter(|p| !p.is_empty()).count();
+        if parts > 1 || !operand.suffix.is_empty() {
+            operand.damaged = true;
+            let message = format!(
+                "{} are two modifiers on one register",
+                quote(text.as_bytes())
+            );
+            let help = "one register takes one modifier";
+            self.error(&rules::SOURCE_MODIFIER, span, message, help);
+            return;
+        }
+        match names::source_suffix(text) {
+            Found::Exact(suffix) => operand.suffix = suffix,
+            Found::Misread(suffix, meant) => {
+                operand.suffix = suffix;
+                let message = format!("{} is no source modifier", quote(text.as_bytes()));
+                self.misread(&rules::SOURCE_MODIFIER, span, message, &meant);
+            }
+            Found::No => {
+                operand.damaged = true;
+                let message = format!("{} is no source modifier", quote(text.as_bytes()));
+                let help = if matches!(names::result_suffix(text), Found::Exact(_)) {
+                    "it belongs to the mnemonic, where it modifies the result".to_string()
+                } else {
+                    format!("the modifiers are {}", listed(SourceModifier::suffixes()))
+                };
+                self.error(&rules::SOURCE_MODIFIER, span, message, &help);
+            }
+        }
+    }
+
+    /// The brackets behind `c` or `c12`.
+    fn index(&mut self, operand: &mut WrittenRegister) {
+        if self.peek().kind != Kind::Open {
+            return;
+        }
+        let open = self.bump();
+        let mut sum = Some(operand.register.index);
+        let mut relative = false;
+        let problem = loop {
+            let term = self.bump();
+            match term.kind {
+                Kind::Number => match self.word(term).parse::<u32>() {
+                    Ok(number) => sum = sum.and_then(|s| s.checked_add(number)),
+                    Err(_) => break Some("is no whole number that an index can have"),
+                },
+                Kind::Word => match names::register(self.word(term), self.version) {
+                    found @ (Found::Exact(Name::Register(RegisterFile::Addr, 0))
+                    | Found::Misread(Name::Register(RegisterFile::Addr, 0), _)) => {
+                        if let Found::Misread(_, meant) = found {
+                            let message = format!("{} is no register", self.quoted(term));
+                            self.misread(&rules::INDEX, self.span(term), message, &meant);
+                        }
+                        let (dot, letter) = (self.peek(), self.token(self.at + 1));
+                        if dot.kind != Kind::Dot || !self.word(letter).eq_ignore_ascii_case("x") {
+                            break Some("must be `a0.x`");
+                        }
+                        self.at += 2;
+                        if relative {
+                            break Some("stands twice in one index");
+                        }
+                        relative = true;
+                    }
+                    _ if self.names_missing => {
+                        operand.damaged = true;
+                        self.skip_index();
+                        return;
+                    }
+                    _ => break Some("is neither a whole number nor `a0.x`"),
+                },
+                Kind::Minus | Kind::Dash => break Some("subtracts: an index only adds"),
+                Kind::Close => break Some("closes an index without a number"),
+                _ => break Some("stands where a number or `a0.x` should"),
+            }
+            let next = self.peek();
+            match next.kind {
+                Kind::Close => {
+                    self.bump();
+                    break None;
+                }
+                Kind::Plus => {
+                    self.bump();
+                }
+                Kind::Minus | Kind::Dash => {
+                    self.bump();
+                    break Some("subtracts: an index only adds");
+                }
+                _ => {
+                    let message = "this index has no `]`";
+                    let help = "write `]` behind the index";
+                    self.error(&rules::INDEX, self.span(open), message, help);
+                    operand.damaged = true;
+                    return;
+                }
+            }
+        };
+        if let Some(problem) = problem {
+            let term = self.previous();
+            let message = format!("{} {problem}", self.quoted(term));
+            let help = "an index is written like c[12], c[a0.x + 12] or c12[a0.x]";
+            self.error(&rules::INDEX, self.span_of(open, term), message, help);
+            operand.damaged = true;
+            if term.kind != Kind::Close {
+                self.skip_index();
+            }
+        } else if let Some(index) = sum {
+            operand.register.index = index;
+            operand.register.relative = relative;
+        } else {
+            let message = "the sum in this index is larger than any register number";
+            let span = self.span_from(open);
+            self.report(Diagnostic::error(&rules::INDEX, span, message));
+            operand.damaged = true;
+        }
+    }
+
+    /// Behind the `]`, if the line has one.
+    fn skip_index(&mut self) {
+        while !self.peek().first && !matches!(self.peek().kind, Kind::Close | Kind::Comma) {
+            self.at += 1;
+        }
+        if self.peek().kind == Kind::Close && !self.peek().first {
+            self.bump();
+        }
+    }
+
+    /// The dot with its letters. True if the dot stands for a comma.
+    fn selector(&mut self, operand: &mut WrittenRegister) -> bool {
+        let dot = self.peek();
+        let digits = dot.kind == Kind::Number
+            && self.bytes(dot).starts_with(b".")
+            && self.glued(self.previous(), dot);
+        if dot.first || !(dot.kind == Kind::Dot || digits) {
+            return false;
+        }
+        self.bump();
+        let token = if digits { dot } else { self.peek() };
+        let text = if digits {
+            self.word(dot).trim_start_matches('.')
+        } else if token.kind == Kind::Word && !token.first {
+            if self.is_register(token) {
+                let message = "the scan has a point where a comma belongs";
+                self.misread(&rules::SEPARATOR, self.span(dot), message, ",");
+                return true;
+            }
+            self.bump();
+            self.word(token)
+        } else {
+            let message = "no letters follow this point";
+            let help = "write which components: letters of xyzw or of rgba";
+            self.error(&rules::SELECTOR, self.span(dot), message, help);
+            operand.damaged = true;
+            return false;
+        };
+        let start = self.base + dot.start + 1;
+        let start = start.max(self.base + token.start);
+        let (text, suffix) = text.split_at(text.find('_').unwrap_or(text.len()));
+        let end = start + text.len() as u32;
+        let span = Span::new(start, end);
+        operand.components_span = span;
+        // `r4.x2`: the suffix of a modifier, behind a dot instead of an underscore.
+        if names::has_source_suffixes(self.version)
+            && names::is_source_suffix_stem(text)
+            && suffix.is_empty()
+        {
+            let meant = format!("_{}", text.to_ascii_lowercase());
+            let whole = Span::new(self.base + dot.start, end);
+            let message = format!("`.{text}` are no components but a modifier");
+            self.misread(&rules::SOURCE_MODIFIER, whole, message, &meant);
+            self.suffix(operand, &meant, span);
+            return false;
+        }
+        self.components(operand, text, span);
+        if !suffix.is_empty() {
+            let at = Span::new(end, end + suffix.len() as u32);
+            if operand.suffix.is_empty() && names::source_suffix(suffix) != Found::No {
+                let message = "the modifier stands behind the components";
+                let help = "write the modifier first: `r0_bx2.a`";
+                self.report(
+                    Diagnostic::warning(&rules::SPELLING, span.to(at), message).with_help(help),
+                );
+            }
+            self.suffix(operand, suffix, at);
+        }
+        false
+    }
+
+    fn components(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
+        let quoted = quote(text.as_bytes());
+        let (message, help) = match names::letters(text) {
+            Letters::Exact(components) => {
+                operand.components = Some(components);
+                return;
+            }
+            Letters::Misread(components, meant) => {
+                operand.components = Some(components);
+                let message = format!("{quoted} are no components");
+                self.misread(&rules::SELECTOR, span, message, &meant);
+                return;
+            }
+            Letters::Mixed => (
+                format!("{quoted} mixes the letters xyzw and rgba"),
+                "take all letters from one of the two",
+            ),
+            Letters::TooMany => (
+                format!("{quoted} has more than four letters"),
+                "a register has four components",
+            ),
+            Letters::OtherLanguage => (
+                format!("{quoted} are components of another language"),
+                "Direct3D 8 has xyzw and rgba",
+            ),
+            Letters::No => (
+                format!("{quoted} are no components"),
+                "components are letters of xyzw or of rgba",
+            ),
+        };
+        operand.damaged = true;
+        self.error(&rules::SELECTOR, span, message, help);
+    }
+
+    /// `r4 x2`: a suffix whose underscore is lost.
+    fn lost_underscore(&mut self, operand: &mut WrittenRegister) {
+        let (before, next) = (self.previous(), self.peek());
+        let word = self.word(next);
+        if next.first || next.kind != Kind::Word || !names::is_source_suffix_stem(word) {
+            return;
+        }
+        self.bump();
+        let meant = format!("_{}", word.to_ascii_lowercase());
+        let span = Span::new(self.base + before.end, self.base + next.end);
+        let message = format!("the underscore before {} is lost", self.quoted(next));
+        self.misread(&rules::SOURCE_MODIFIER, span, message, &meant);
+        self.suffix(operand, &meant, self.span(next));
+    }
+}

@@ -1,0 +1,243 @@
+//! What stands before the first instruction: the version, or what is there in its place.
+
+use super::confuse::alike;
+use super::lexer::{Kind, Token};
+use super::names::{self, Found, VersionText};
+use super::parser::Parser;
+use super::report::quote;
+use super::rules;
+use crate::diagnostic::{Diagnostic, Fix, Span};
+use crate::isa::{RegisterFile, ShaderKind, Version};
+
+/// Where the version was found.
+pub(super) struct Heading {
+    pub(super) version: Version,
+    pub(super) span: Span,
+    /// Whether the version was only guessed, so that there is no shader to give back.
+    pub(super) guessed: bool,
+}
+
+/// Longest text that is read as a version, blanks included.
+const LONGEST: usize = 12;
+
+impl Parser<'_> {
+    /// Finds the version and goes behind it. `assumed` is the version if the listing has none. `None` if there is
+    /// nothing to read on.
+    pub(super) fn heading(&mut self, assumed: Option<Version>) -> Option<Heading> {
+        let mut instruction_reported = false;
+        loop {
+            let line = self.at;
+            let first = self.peek();
+            if first.kind == Kind::End || self.reports.full() {
+                break;
+            }
+            if let Some((reading, behind)) = self.version_here() {
+                self.lines_before(line, &mut instruction_reported);
+                return self.version(reading, line, behind);
+            }
+            self.skip_line();
+        }
+        self.at = 0;
+        let start = self.peek();
+        let span = self.span(start).at_start();
+        if let Some(version) = assumed {
+            return Some(Heading {
+                version,
+                span,
+                guessed: false,
+            });
+        }
+        self.no_version(start)
+    }
+
+    /// The version at the start of this line, with the number of the token behind it.
+    fn version_here(&self) -> Option<(VersionText, usize)> {
+        let first = self.peek();
+        if first.kind == Kind::Version {
+            return Some((names::version(self.bytes(first)), self.at + 1));
+        }
+        let starts_so = |b: &u8| alike(*b, b'v') || alike(*b, b'p');
+        if first.kind != Kind::Word || !self.bytes(first).first().is_some_and(starts_so) {
+            return None;
+        }
+        (self.at..self.at + 5).find_map(|at| {
+            let token = self.token(at);
+            let text = self.between(first, token);
+            let same_line = at == self.at || !token.first;
+            let longest = token.kind != Kind::End && same_line && text.len() <= LONGEST;
+            // A name that goes on, such as a label, is no version.
+            let reading = names::version(if longest { text } else { b"" });
+            (longest && reading != VersionText::Unknown).then_some((reading, at + 1))
+        })
+    }
+
+    /// Reports the lines before the version, which is at token `version`.
+    fn lines_before(&mut self, version: usize, reported: &mut bool) {
+        self.at = 0;
+        while self.at < version && !self.reports.full() {
+            let at = self.at;
+            let first = self.peek();
+            let mnemonic = at + usize::from(first.kind == Kind::Plus);
+            let instruction = self.mnemonic(self.token(mnemonic)).is_some()
+                && (self.is_register(self.token(mnemonic + 1)) || self.token(mnemonic + 1).first);
+            if !instruction {
+                self.stray_text(true);
+            } else {
+                if !*reported {
+                    let message = "this stands before the version instruction";
+                    let help = "move the version instruction to the front";
+                    self.error(&rules::VERSION_MISSING, self.span(first), message, help);
+                }
+                *reported = true;
+                self.skip_line();
+            }
+        }
+        self.at = version;
+    }
+
+    fn version(&mut self, reading: VersionText, first: usize, behind: usize) -> Option<Heading> {
+        self.at = behind;
+        let span = self.span_from(self.token(first));
+        let text = self.text_of(span);
+        let quoted = quote(text);
+        let version = match reading {
+            VersionText::Exact(version) => version,
+            VersionText::Mixed(version) => {
+                let message = format!("{quoted} mixes the two spellings of the version");
+                self.misread(&rules::VERSION_UNKNOWN, span, message, version.name());
+                version
+            }
+            VersionText::Misread(version) => {
+                let message = format!("{quoted} is no version");
+                self.misread(&rules::VERSION_UNKNOWN, span, message, version.name());
+                version
+            }
+            VersionText::Unknown => {
+                let message = format!("{quoted} is no version of Direct3D 8");
+                let help = if text.starts_with(b"x") || text.starts_with(b"X") {
+                    "it is of the Xbox, whose instructions are not all those of Direct3D 8"
+                } else if text.get(3).is_some_and(|b| (b'2'..=b'9').contains(b)) {
+                    "it is of a later shader model; Direct3D 8 has vs.1.0, vs.1.1 and ps.1.0 to ps.1.4"
+                } else {
+                    "Direct3D 8 has vs.1.0, vs.1.1 and ps.1.0 to ps.1.4"
+                };
+                self.error(&rules::VERSION_UNKNOWN, span, message, help);
+                return None;
+            }
+        };
+        Some(Heading {
+            version,
+            span,
+            guessed: false,
+        })
+    }
+
+    fn no_version(&mut self, start: Token) -> Option<Heading> {
+        let span = self.span(start);
+        if start.kind == Kind::End {
+            let message = match self.text.iter().all(u8::is_ascii_whitespace) {
+                true => "the text is empty: the version instruction is missing",
+                false => "the text holds only comments: the version instruction is missing",
+            };
+            let help = "begin with one of vs.1.0, vs.1.1, ps.1.0 to ps.1.4";
+            self.error(&rules::VERSION_MISSING, span.at_start(), message, help);
+            return None;
+        }
+        let end = self.line_end(1);
+        let line = self.between(start, self.token(end.saturating_sub(1)));
+        let message = format!(
+            "the version instruction is missing: the listing begins with {}",
+            quote(line)
+        );
+        let mut report = Diagnostic::error(&rules::VERSION_MISSING, span, message);
+        let guess = self.likely_version();
+        report = match guess {
+            Some(version) => report
+                .with_help(format!(
+                    "what follows would fit {version}: write it in the first line"
+                ))
+                .with_fix(Fix {
+                    span: span.at_start(),
+                    replacement: format!("{version}\n"),
+                    certain: false,
+                }),
+            None => {
+                report.with_help("no line of it is an instruction either: this is hardly a listing")
+            }
+        };
+        self.report(report);
+        guess.map(|version| Heading {
+            version,
+            span: span.at_start(),
+            guessed: true,
+        })
+    }
+
+    /// The version that has most of the instructions and registers which are written; `None` if none is.
+    fn likely_version(&self) -> Option<Version> {
+        const LOOKED_AT: usize = 2000;
+        let mut points: Vec<(u32, Version)> = Version::all().map(|v| (0, v)).collect();
+        for (at, &token) in self.tokens.iter().take(LOOKED_AT).enumerate() {
+            let register = match self.registers(self.token(at + 1)) {
+                Found::Exact(names::Name::Register(file, index)) => Some((file, index)),
+                _ => None,
+            };
+            let Some((opcode, register)) = self.mnemonic(token).zip(register) else {
+                continue;
+            };
+            let is_output = matches!(
+                register.0,
+                RegisterFile::RastOut | RegisterFile::AttrOut | RegisterFile::TexCrdOut
+            );
+            for (points, version) in &mut points {
+                *points += u32::from(opcode.form(*version).is_some());
+                *points += u32::from(register.1 < register.0.count(*version));
+                *points += 4 * u32::from(is_output && version.kind() == ShaderKind::Vertex);
+            }
+        }
+        // Of equals the later version: it has more room.
+        let best = points.into_iter().max_by_key(|(points, _)| *points)?;
+        (best.0 > 0).then_some(best.1)
+    }
+}
+
+/// Says what a text is that is no text.
+pub(super) fn not_text(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    const KNOWN: [(&[u8], &str, &str); 9] = [
+        (b"\x89PNG", "a PNG picture", ""),
+        (b"\xFF\xD8\xFF", "a JPEG picture", ""),
+        (b"GIF8", "a GIF picture", ""),
+        (b"DDS ", "a DDS texture", ""),
+        (b"PK\x03\x04", "a ZIP archive", "unpack it first"),
+        (b"\x7FELF", "a program", ""),
+        (b"MZ", "a program", ""),
+        (
+            b"\xFF\xFE",
+            "text in UTF-16",
+            "save it as plain text or UTF-8",
+        ),
+        (
+            b"\xFE\xFF",
+            "text in UTF-16",
+            "save it as plain text or UTF-8",
+        ),
+    ];
+    // The token of a version: 0xFFFE01mm or 0xFFFF01mm, lowest byte first.
+    if let [minor, major, 0xFE | 0xFF, 0xFF, ..] = bytes
+        && *minor < 16
+        && (1..4).contains(major)
+    {
+        return Some((
+            "a compiled shader (tokens)",
+            "disassemble it to get a listing",
+        ));
+    }
+    if let Some((_, what, help)) = KNOWN
+        .iter()
+        .find(|(magic, ..)| bytes.starts_with(magic) && (magic != b"MZ" || bytes.contains(&0)))
+    {
+        return Some((what, help));
+    }
+    let head = bytes.get(..1024).unwrap_or(bytes);
+    head.contains(&0).then_some(("binary data", ""))
+}

@@ -1,0 +1,441 @@
+//! Statements: instructions, and what is left of damaged ones.
+
+use super::lexer::{Kind, Token};
+use super::list::List;
+use super::names::{self, Found, Name, ResultSuffix};
+use super::parser::{Parser, Stray};
+use super::report::{counted, names as listed, quote};
+use super::rules;
+use crate::diagnostic::{Diagnostic, Fix, Span};
+use crate::isa::{Opcode, ResultModifier, ShaderKind};
+use crate::program::{Instruction, Statement};
+
+/// What stands before the operands of a statement.
+#[derive(Clone, Copy)]
+pub(super) struct Head {
+    pub(super) opcode: Opcode,
+    pub(super) result: ResultModifier,
+    pub(super) co_issue: bool,
+    /// The first token of the mnemonic.
+    pub(super) token: Token,
+    /// The mnemonic with its suffixes.
+    pub(super) span: Span,
+    /// Whether something in it was reported that cannot be repaired.
+    pub(super) damaged: bool,
+}
+
+/// How many damaged statements end the reading: with names missing, most of them are not reported.
+const MOST_DAMAGED: usize = 1000;
+
+impl Parser<'_> {
+    /// Reads statements to the end of the text, or of what is read of it.
+    pub(super) fn statements(&mut self) {
+        let mut plus: Option<Token> = None;
+        while !self.reports.full() && self.damaged.len() < MOST_DAMAGED {
+            let token = self.peek();
+            match token.kind {
+                Kind::Plus => {
+                    self.bump();
+                    if plus.is_some() {
+                        while self.peek().kind == Kind::Plus {
+                            self.bump();
+                        }
+                        let span = self.span_from(token);
+                        let message = "a second `+` before one instruction";
+                        let help = "only two instructions run together: write one `+`";
+                        self.error(&rules::CO_ISSUE, span, message, help);
+                    }
+                    plus = Some(token);
+                    continue;
+                }
+                Kind::End => {
+                    if let Some(plus) = plus {
+                        let message = "no instruction follows this `+`";
+                        let help = "write the second instruction of the pair, or remove the `+`";
+                        self.error(&rules::CO_ISSUE, self.span(plus), message, help);
+                    }
+                    break;
+                }
+                Kind::Version => {
+                    let message = format!(
+                        "{} begins a second shader in one listing",
+                        self.quoted(token)
+                    );
+                    let help = "give each shader a file of its own; what follows is not read";
+                    self.error(&rules::VERSION_TWICE, self.span(token), message, help);
+                    break;
+                }
+                Kind::Word => self.word_statement(token, plus.is_some()),
+                _ if self.names_missing => self.unknown_line(),
+                _ => self.stray_text(false),
+            }
+            plus = None;
+        }
+        self.match_lost_with_strays();
+    }
+
+    /// A line that may be an instruction once the preprocessor has seen it.
+    fn unknown_line(&mut self) {
+        let first = self.peek();
+        self.skip_line();
+        self.damage(self.span_from(first), None);
+    }
+
+    fn word_statement(&mut self, token: Token, co_issue: bool) {
+        let word = self.word(token);
+        let (stem, _) = word.split_at(word.find('_').unwrap_or(word.len()));
+        let next = self.token(self.at + 1);
+        let operand_follows =
+            self.begins_operand(self.at + 1) && self.token(self.at + 1).kind == Kind::Word;
+        let alone = next.first;
+        if Opcode::from_mnemonic(stem).is_some() {
+            // `add the two together`: prose that begins with a mnemonic.
+            let prose = !alone
+                && next.kind == Kind::Word
+                && !self.begins_operand(self.at + 1)
+                && self.words_of_prose(self.at + 1) > 1;
+            return if prose {
+                self.stray_text(false);
+            } else {
+                self.instruction(token, stem, co_issue);
+            };
+        }
+        let register = self.registers(token);
+        if let Found::Exact(Name::Register(..) | Name::TooLarge) = register {
+            let separated = matches!(next.kind, Kind::Comma | Kind::Dot | Kind::Open);
+            return if !separated && self.words_of_prose(self.at) > 0 {
+                self.stray_text(false);
+            } else {
+                self.lost_mnemonic(co_issue);
+            };
+        }
+        if let Found::Exact(Name::File(_)) = register
+            && next.kind == Kind::Open
+        {
+            return self.lost_mnemonic(co_issue);
+        }
+        if operand_follows || alone {
+            if let Found::Misread(..) = names::opcode(stem, self.version) {
+                return self.instruction(token, stem, co_issue);
+            }
+            if let Some(meant) = names::joined_suffixes(word) {
+                self.bump();
+                let message = format!("the underscore in {} is lost", self.quoted(token));
+                self.misread(&rules::RESULT_SUFFIX, self.span(token), message, &meant);
+                let (stem, suffixes) = meant.split_at(meant.find('_').unwrap_or(meant.len()));
+                return self.body(token, stem, suffixes, co_issue);
+            }
+        }
+        if let Found::Misread(..) = register
+            && matches!(next.kind, Kind::Comma | Kind::Dot)
+            && !next.first
+        {
+            return self.lost_mnemonic(co_issue);
+        }
+        let foreign = names::foreign_mnemonic(stem);
+        if next.kind == Kind::Colon && !next.first && foreign.is_none() {
+            let message = format!("{} is a label, and Direct3D 8 has none", self.quoted(token));
+            let span = self.span_of(token, next);
+            self.report(Diagnostic::error(&rules::INSTRUCTION, span, message));
+            self.at += 2;
+        } else if operand_follows
+            || foreign.is_some() && (alone || self.words_of_prose(self.at) < 2)
+        {
+            self.unknown_instruction(token, stem, foreign);
+        } else if self.names_missing {
+            self.unknown_line();
+        } else if alone && let [near] = names::near_mnemonics(stem, self.version)[..] {
+            self.unknown_instruction(token, near, None);
+        } else {
+            self.stray_text(false);
+        }
+    }
+
+    /// A word in the place of a mnemonic that is none.
+    fn unknown_instruction(&mut self, token: Token, stem: &str, foreign: Option<&str>) {
+        self.bump();
+        let span = self.span(token);
+        let quoted = self.quoted(token);
+        let near = names::near_mnemonics(stem, self.version);
+        if self.names_missing && foreign.is_none() && near.is_empty() {
+            // A macro may stand here.
+        } else if let Some(owner) = foreign {
+            let message = format!("{quoted} is an instruction of {owner}");
+            let help = format!("{} does not have it", self.version);
+            self.error(&rules::INSTRUCTION, span, message, &help);
+        } else {
+            let message = format!("{quoted} is no instruction");
+            let mut report = Diagnostic::error(&rules::INSTRUCTION, span, message);
+            if !near.is_empty() {
+                report =
+                    report.with_help(format!("did you mean {}?", listed(near.iter().copied())));
+            }
+            if let [only] = near[..] {
+                let suffixes = self
+                    .word(token)
+                    .find('_')
+                    .map_or("", |at| &self.word(token)[at..]);
+                report = report.with_fix(Fix {
+                    span,
+                    replacement: format!("{only}{suffixes}"),
+                    certain: false,
+                });
+            }
+            self.report(report);
+        }
+        // Its operands may be damaged too.
+        let destination = if self.begins_operand(self.at) {
+            self.operand_list(None).destination()
+        } else {
+            self.at = self.line_end(self.at);
+            None
+        };
+        self.damage(self.span_from(token), destination);
+    }
+
+    /// An instruction whose mnemonic is in the next word.
+    fn instruction(&mut self, token: Token, stem: &str, co_issue: bool) {
+        self.bump();
+        let word = self.word(token);
+        let suffixes = word.get(stem.len()..).unwrap_or("");
+        self.body(token, stem, suffixes, co_issue);
+    }
+
+    /// An instruction behind its mnemonic.
+    fn body(&mut self, token: Token, stem: &str, suffixes: &str, co_issue: bool) {
+        let start = self.base + token.start;
+        let opcode = match names::opcode(stem, self.version) {
+            Found::Exact(opcode) => opcode,
+            Found::Misread(opcode, meant) => {
+                let span = Span::new(start, start + stem.len() as u32);
+                let message = format!("{} is no instruction", quote(stem.as_bytes()));
+                self.misread(&rules::INSTRUCTION, span, message, &meant);
+                opcode
+            }
+            Found::No => return,
+        };
+        let mut head = Head {
+            opcode,
+            result: ResultModifier::NONE,
+            co_issue,
+            token,
+            span: self.span(token),
+            damaged: false,
+        };
+        if opcode == Opcode::Dcl {
+            return self.declaration(head, suffixes.strip_prefix('_').unwrap_or(suffixes));
+        }
+        self.result_suffixes(&mut head, suffixes);
+        match opcode {
+            Opcode::Def => self.definition(head),
+            _ => self.operands(head),
+        }
+    }
+
+    fn result_suffixes(&mut self, head: &mut Head, suffixes: &str) {
+        let mut at = self.base + head.token.end.saturating_sub(suffixes.len() as u32);
+        let mut shifted = false;
+        for part in suffixes.split('_').skip(1) {
+            let span = Span::new(at, at + 1 + part.len() as u32);
+            at = span.end;
+            self.result_suffix(head, &format!("_{part}"), span, &mut shifted);
+        }
+        // `mul x2 r0, …`: the underscore is lost.
+        while let next = self.peek()
+            && next.kind == Kind::Word
+            && !next.first
+            && let stem = format!("_{}", self.word(next).trim_start_matches('_'))
+            && let Found::Exact(_) = names::result_suffix(&stem)
+        {
+            let before = self.previous();
+            self.bump();
+            let span = Span::new(self.base + before.end, self.base + next.end);
+            let message = format!("the underscore before {} is lost", self.quoted(next));
+            self.misread(
+                &rules::RESULT_SUFFIX,
+                span,
+                message,
+                &stem.to_ascii_lowercase(),
+            );
+            self.result_suffix(head, &stem, span, &mut shifted);
+            head.span = self.span_from(head.token);
+        }
+        if head.result == ResultModifier::NONE || head.damaged {
+            return;
+        }
+        let why = match head.opcode {
+            Opcode::Def | Opcode::Phase | Opcode::Nop => "computes nothing",
+            _ if self.version.kind() == ShaderKind::Vertex => {
+                "is an instruction of a vertex shader, which has none"
+            }
+            _ => return,
+        };
+        head.damaged = true;
+        let message = format!("`{}` takes no suffix: it {why}", head.opcode.mnemonic());
+        self.report(Diagnostic::error(&rules::RESULT_SUFFIX, head.span, message));
+    }
+
+    /// One suffix of a mnemonic, underscore included.
+    fn result_suffix(&mut self, head: &mut Head, text: &str, span: Span, shifted: &mut bool) {
+        if head.damaged {
+            return;
+        }
+        let suffix = match names::result_suffix(text) {
+            Found::Exact(suffix) => suffix,
+            Found::Misread(suffix, meant) => {
+                let message = format!("{} is no suffix of a mnemonic", quote(text.as_bytes()));
+                self.misread(&rules::RESULT_SUFFIX, span, message, &meant);
+                suffix
+            }
+            Found::No => {
+                head.damaged = true;
+                let message = format!("{} is no suffix of a mnemonic", quote(text.as_bytes()));
+                let help = match text.to_ascii_lowercase().as_str() {
+                    "_pp" | "_centroid" => "it belongs to later shader models".to_string(),
+                    _ => {
+                        let all: Vec<_> = names::result_suffixes().map(|(_, s)| s).collect();
+                        format!(
+                            "the suffixes are {}",
+                            listed(all.iter().map(String::as_str))
+                        )
+                    }
+                };
+                self.error(&rules::RESULT_SUFFIX, span, message, &help);
+                return;
+            }
+        };
+        let twice = match suffix {
+            ResultSuffix::Saturate => std::mem::replace(&mut head.result.saturate, true),
+            ResultSuffix::Shift(shift) => {
+                head.result.shift = shift;
+                std::mem::replace(shifted, true)
+            }
+        };
+        if !twice {
+            return;
+        }
+        head.damaged = true;
+        let message = match suffix {
+            ResultSuffix::Saturate => "`_sat` stands twice",
+            ResultSuffix::Shift(_) => "two shifts on one instruction",
+        };
+        let help = "one instruction takes one shift and one _sat";
+        self.error(&rules::RESULT_SUFFIX, span, message, help);
+    }
+
+    /// The operands of an instruction that is neither `def` nor `dcl`.
+    fn operands(&mut self, head: Head) {
+        let count = names::operand_count(head.opcode);
+        if count == 0 {
+            return self.keep(head, &List::default());
+        }
+        if !self.begins_operands() {
+            return self.no_operands(head, count);
+        }
+        let list = self.operand_list(Some(count));
+        let destination = list.destination();
+        let written = list.operands.len();
+        if list.broken {
+            self.damage(self.span_from(head.token), destination);
+        } else if written != count {
+            self.wrong_count(&head, count, &list);
+            self.damage(self.span_from(head.token), destination);
+        } else {
+            self.keep(head, &list);
+        }
+    }
+
+    /// Whether what follows a mnemonic is meant as its operands.
+    pub(super) fn begins_operands(&self) -> bool {
+        let next = self.peek();
+        if next.first {
+            return self.begins_operand(self.at);
+        }
+        match next.kind {
+            Kind::Word => self.mnemonic(next).is_none(),
+            Kind::Minus | Kind::Dash | Kind::Number | Kind::Open | Kind::Dot | Kind::Comma => true,
+            Kind::Plus | Kind::End | Kind::Version | Kind::Close | Kind::Colon | Kind::Junk => {
+                false
+            }
+        }
+    }
+
+    /// A mnemonic without operands.
+    pub(super) fn no_operands(&mut self, head: Head, count: usize) {
+        let message = format!(
+            "no operands follow `{}`, which takes {}",
+            head.opcode.mnemonic(),
+            count
+        );
+        let help = "they may be lost, or have slipped to another line";
+        let report = self.error(&rules::OPERAND_COUNT, head.span, message, help);
+        self.damage(head.span, None);
+        self.strays.push(Stray {
+            opcode: head.opcode,
+            line: head.token.line,
+            report,
+        });
+        let next = self.peek();
+        if !next.first && matches!(next.kind, Kind::Close | Kind::Colon | Kind::Junk) {
+            self.skip_line();
+        }
+    }
+
+    fn wrong_count(&mut self, head: &Head, count: usize, list: &List) {
+        let written = list.operands.len();
+        let form = head.opcode.row().forms.first();
+        let sources = form.map_or(0, |f| f.sources.len());
+        let parts = match sources {
+            0 => String::new(),
+            _ => format!(" (a destination and {})", counted(sources, "source")),
+        };
+        let message = format!(
+            "`{}` takes {}{parts}, but {written} {} written",
+            head.opcode.mnemonic(),
+            counted(count, "operand"),
+            if written == 1 { "is" } else { "are" },
+        );
+        let span = self.span_from(head.token);
+        let mut report = Diagnostic::error(&rules::OPERAND_COUNT, span, message);
+        let takers = self.takers(list);
+        if !takers.is_empty() && !list.damaged() {
+            report = report.with_help(format!(
+                "instructions of {} that take these operands: {}",
+                self.version,
+                listed(takers.iter().map(|op| op.mnemonic()))
+            ));
+        }
+        self.report(report);
+    }
+
+    /// Adds an instruction to the program, or reports what its operands cannot be.
+    fn keep(&mut self, head: Head, list: &List) {
+        let span = self.span_from(head.token);
+        let mut operands = list.operands.iter();
+        let mut whole = !head.damaged;
+        let destination = operands.next().and_then(|first| {
+            let destination = self.destination(first);
+            whole &= destination.is_some();
+            destination
+        });
+        let mut sources = Vec::new();
+        for operand in operands {
+            match self.source(operand) {
+                Some(source) => sources.push(source),
+                None => whole = false,
+            }
+        }
+        if !whole {
+            return self.damage(span, list.destination());
+        }
+        self.statements.push(Statement::Instruction(Instruction {
+            opcode: head.opcode,
+            co_issue: head.co_issue,
+            result: head.result,
+            destination,
+            sources,
+            span,
+            mnemonic_span: head.span,
+        }));
+    }
+}
