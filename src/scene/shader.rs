@@ -125,7 +125,9 @@ fn program(
         }
     };
     let accepted = checked.accepted().cloned().map(Arc::new);
-    problems.list.extend(checked.diagnostics);
+    for diagnostic in checked.diagnostics {
+        problems.push(diagnostic);
+    }
     accepted
 }
 
@@ -139,7 +141,7 @@ pub(super) fn lowered(named: &Named, options: &Options, problems: &mut Problems)
         Err(error) => {
             let place = error.span;
             let diagnostic = Diagnostic::error(&rules::SHADER, place, error.message);
-            problems.list.push(diagnostic);
+            problems.push(diagnostic);
             None
         }
     }
