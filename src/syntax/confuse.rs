@@ -46,7 +46,12 @@ pub(super) fn only_reading<T>(
     written: &str,
     candidates: impl Iterator<Item = (T, String)>,
 ) -> Option<(T, String)> {
-    let mut fitting = candidates.filter(|(_, name)| reads_as(written, name));
+    // Where every letter would be another, it is not a misreading but another word.
+    let shares = |name: &str| {
+        let mut letters = written.bytes();
+        letters.any(|b| name.bytes().any(|n| n.eq_ignore_ascii_case(&b)))
+    };
+    let mut fitting = candidates.filter(|(_, name)| reads_as(written, name) && shares(name));
     let first = fitting.next()?;
     fitting.next().is_none().then_some(first)
 }

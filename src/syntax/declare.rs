@@ -18,7 +18,7 @@ impl Parser<'_> {
         if !self.begins_operands() {
             return self.no_operands(head, 5);
         }
-        let (operand, comma_read) = self.operand();
+        let (operand, comma_read) = self.operand(true);
         let register = match &operand {
             Written::Register(r) if r.prefix.is_empty() && r.suffix.is_empty() => {
                 (!r.damaged && r.components.is_none()).then_some((r.register, r.span))
@@ -114,8 +114,10 @@ impl Parser<'_> {
                 Some(value) => values.push(value),
                 None => {
                     whole = false;
-                    while !self.peek().first && self.peek().kind != Kind::Comma {
-                        self.at += 1;
+                    // What follows without a comma is no number of this list.
+                    if !matches!(self.peek().kind, Kind::Comma | Kind::End) && !self.peek().first {
+                        self.at = self.line_end(self.at);
+                        break;
                     }
                 }
             }

@@ -72,7 +72,7 @@ impl Parser<'_> {
     pub(super) fn operand_list(&mut self, expected: Option<usize>) -> List {
         let mut list = List::default();
         loop {
-            let (operand, comma_read) = self.operand();
+            let (operand, comma_read) = self.operand(list.operands.is_empty());
             list.operands.push(operand);
             if list.operands.len() == MOST_OPERANDS {
                 self.skip_line();

@@ -6,7 +6,7 @@ use super::parser::Parser;
 use super::report::{names as listed, quote};
 use super::rules;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::isa::{RegisterFile, SourceModifier};
+use crate::isa::{RegisterFile, ShaderKind, SourceModifier};
 use crate::program::Register;
 
 /// An operand as it is written.
@@ -24,6 +24,8 @@ pub(super) enum Written {
 #[derive(Clone, Debug)]
 pub(super) struct WrittenRegister {
     pub(super) span: Span,
+    /// Whether it stands where a destination does.
+    pub(super) first: bool,
     /// Nothing, `-` or `1-`.
     pub(super) prefix: &'static str,
     pub(super) register: Register,
@@ -38,8 +40,8 @@ pub(super) struct WrittenRegister {
 }
 
 impl<'a> Parser<'a> {
-    /// Reads one operand; tells also whether a comma behind it was read that is written otherwise.
-    pub(super) fn operand(&mut self) -> (Written, bool) {
+    /// Reads one operand, the first of its statement or another; tells also whether a comma behind it was read that is written otherwise.
+    pub(super) fn operand(&mut self, is_first: bool) -> (Written, bool) {
         let first = self.peek();
         let Some((prefix, prefix_damaged)) = self.prefix() else {
             return (Written::Damaged, false);
@@ -66,6 +68,7 @@ impl<'a> Parser<'a> {
         };
         let mut operand = WrittenRegister {
             span: Span::default(),
+            first: is_first,
             prefix,
             register,
             suffix: "",
@@ -406,7 +409,7 @@ impl<'a> Parser<'a> {
         let text = if digits {
             self.word(dot).trim_start_matches('.')
         } else if token.kind == Kind::Word && !token.first {
-            if self.is_register(token) {
+            if self.has_register(token) {
                 let message = "the scan has a point where a comma belongs";
                 self.misread(&rules::SEPARATOR, self.span(dot), message, ",");
                 return true;
@@ -460,7 +463,11 @@ impl<'a> Parser<'a> {
                 operand.components = Some(components);
                 return;
             }
-            Letters::Misread(components, meant) => {
+            // Only sources of vertex shaders name components in any order.
+            Letters::Misread(components, meant)
+                if components.is_sorted_by(|a, b| a < b)
+                    || (!operand.first && self.version.kind() == ShaderKind::Vertex) =>
+            {
                 operand.components = Some(components);
                 let message = format!("{quoted} are no components");
                 self.misread(&rules::SELECTOR, span, message, &meant);
@@ -478,7 +485,7 @@ impl<'a> Parser<'a> {
                 format!("{quoted} are components of another language"),
                 "Direct3D 8 has xyzw and rgba",
             ),
-            Letters::No => (
+            Letters::No | Letters::Misread(..) => (
                 format!("{quoted} are no components"),
                 "components are letters of xyzw or of rgba",
             ),

@@ -196,6 +196,14 @@ impl<'a> Parser<'a> {
         token.kind == Kind::Word && matches!(exact_register(stem), Some(Name::Register(..)))
     }
 
+    /// Whether a word names a register that the version has.
+    pub(super) fn has_register(&self, token: Token) -> bool {
+        match self.registers(token) {
+            Found::Exact(Name::Register(file, index)) => index < file.count(self.version),
+            _ => false,
+        }
+    }
+
     /// How many of the words from `from` to the end of the line belong to no instruction; only the first few are
     /// looked at, so that a line without end costs no more than another.
     pub(super) fn words_of_prose(&self, from: usize) -> usize {

@@ -24,7 +24,7 @@ pub fn print(program: &Program) -> String {
     text
 }
 
-/// One instruction as [`print`] writes it, with its `+` and without a line end.
+/// One instruction as [`print()`] writes it, with its `+` and without a line end.
 pub fn print_instruction(instruction: &Instruction, kind: ShaderKind) -> String {
     let letters = letters(kind);
     let plus = if instruction.co_issue { "+" } else { "" };

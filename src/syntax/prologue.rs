@@ -166,6 +166,10 @@ impl Parser<'_> {
             }
         };
         self.report(report);
+        // What stands in the place of the version was reported with it.
+        while self.peek().kind != Kind::End && self.mnemonic(self.peek()).is_none() {
+            self.skip_line();
+        }
         guess.map(|version| Heading {
             version,
             span: span.at_start(),

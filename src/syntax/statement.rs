@@ -244,6 +244,7 @@ impl Parser<'_> {
         while let next = self.peek()
             && next.kind == Kind::Word
             && !next.first
+            && self.token(self.at + 1).kind != Kind::Comma
             && let stem = format!("_{}", self.word(next).trim_start_matches('_'))
             && let Found::Exact(_) = names::result_suffix(&stem)
         {
@@ -335,7 +336,8 @@ impl Parser<'_> {
         let list = self.operand_list(Some(count));
         let destination = list.destination();
         let written = list.operands.len();
-        if list.broken {
+        if list.broken || (list.damaged() && written != count) {
+            // What is wrong was said; a wrong number of operands follows from it.
             self.damage(self.span_from(head.token), destination);
         } else if written != count {
             self.wrong_count(&head, count, &list);
@@ -398,7 +400,7 @@ impl Parser<'_> {
         let span = self.span_from(head.token);
         let mut report = Diagnostic::error(&rules::OPERAND_COUNT, span, message);
         let takers = self.takers(list);
-        if !takers.is_empty() && !list.damaged() {
+        if !takers.is_empty() {
             report = report.with_help(format!(
                 "instructions of {} that take these operands: {}",
                 self.version,

@@ -100,3 +100,24 @@ fn what_the_damage_hides_is_known_to_the_caller() {
     let temp = |index| Some(Register::new(RegisterFile::Temp, index));
     assert_eq!(registers, [temp(1), temp(0), temp(0)]);
 }
+
+/// One letter of a good listing changed: little is said of it, whatever the letter became. A sign that is lost or won
+/// may damage two operands and the instruction with them.
+#[test]
+fn one_changed_letter_makes_no_cascade() {
+    for listing in [VSH, PSH] {
+        let code: Vec<&str> = listing
+            .lines()
+            .map(|line| line.split(';').next().unwrap().trim_end())
+            .filter(|line| !line.is_empty())
+            .collect();
+        let code = code.join("\n");
+        for at in 0..code.len() {
+            for letter in ["", " ", ",", ".", "x", "q", "1", "O", "-", "(", ":", "\n"] {
+                let text = [&code[..at], letter, &code[at + 1..]].concat();
+                let found = found(&text);
+                assert!(found.len() <= 3, "{at} {letter:?}\n{}", told(&text));
+            }
+        }
+    }
+}
