@@ -79,7 +79,7 @@ pub(super) fn find(
     problems: &mut Problems,
 ) -> Option<usize> {
     let found = names.get(&name.value).copied();
-    if found.is_none() {
+    if found.is_none() && !problems.full() {
         let message = format!("there is no {what} `{}`", name.value);
         let help = advice(&name.value, names.keys().map(String::as_str));
         problems.error_with(&rules::NAME, name.span, message, help);

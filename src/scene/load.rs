@@ -12,11 +12,14 @@ use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
 use super::{LoadOptions, Scene, TextureEntry, TextureSource, mesh};
-use crate::diagnostic::SourceMap;
+use crate::diagnostic::{SourceMap, Span};
 use crate::raster;
 
 /// Most meshes, textures, targets or draws of a scene, each.
 pub const MAX_ENTRIES: usize = 1024;
+
+/// Most draws that a picture may take, those into render targets included, each as often as it is drawn.
+pub const MAX_DRAWS: usize = 1 << 15;
 
 /// A text that TOML brackets nest deeper in than this is refused before it is parsed.
 const MAX_NESTING: usize = 64;
@@ -186,6 +189,9 @@ fn read(
         sources: SourceMap::new(),
         warnings: Vec::new(),
     };
+    if !few_draws(&scene, whole, problems) {
+        return None;
+    }
     let reads = |number: usize| scene.targets_read_by(&scene.targets[number].draws);
     scene.order = target::order(&scene.targets, reads, problems);
     scene.check_meanings(problems);
@@ -241,6 +247,19 @@ fn texture_sources(
             Source::Irradiance { .. } => derived,
         })
         .collect()
+}
+
+/// Whether a picture takes no more draws than [`MAX_DRAWS`], those into targets included.
+fn few_draws(scene: &Scene, whole: Span, problems: &mut Problems) -> bool {
+    let into_targets = scene.targets.iter().map(|t| t.faces() * t.draws.len());
+    let count = into_targets.fold(scene.picture.len(), usize::saturating_add);
+    if count <= MAX_DRAWS {
+        return true;
+    }
+    let message =
+        format!("a picture of this scene takes {count} draws; at most {MAX_DRAWS} are allowed");
+    problems.error(&rules::LIMIT, whole, message);
+    false
 }
 
 /// Everything, unless something is missing.
@@ -349,11 +368,7 @@ fn draw_entries<'i>(
 }
 
 /// The place of an entry of a list of tables: its header, without the rest of its lines.
-fn first_line(
-    value: &Spanned<DeValue<'_>>,
-    key_span: crate::diagnostic::Span,
-    problems: &Problems,
-) -> crate::diagnostic::Span {
+fn first_line(value: &Spanned<DeValue<'_>>, key_span: Span, problems: &Problems) -> Span {
     let range = value.span();
     if range.is_empty() {
         return key_span;

@@ -37,7 +37,7 @@ use crate::texture::Texture;
 pub use draw::Declaration;
 pub use error::{SceneError, rules};
 pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
-pub use load::MAX_ENTRIES;
+pub use load::{MAX_DRAWS, MAX_ENTRIES};
 pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
 pub use render::{Progress, RenderError, RenderOptions, Show};
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};

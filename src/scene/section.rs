@@ -254,6 +254,9 @@ impl<'i> Section<'i> {
     /// Reports every key that nobody asked for.
     pub(super) fn finish(self, problems: &mut Problems) {
         for node in &self.nodes {
+            if problems.full() {
+                return;
+            }
             let message = format!("{} has no key `{}`", self.title, node.key);
             let help = advice(&node.key, self.asked.iter().copied());
             problems.error_with(&rules::KEY, node.key_span, message, help);
