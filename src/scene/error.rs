@@ -121,25 +121,15 @@ const MOST_LETTERS: usize = 1000;
 /// Collects problems while a scene is read.
 #[derive(Debug, Default)]
 pub(super) struct Problems {
-    /// Where the scene file begins in the source map.
-    base: u32,
     list: Vec<Diagnostic>,
     errors: usize,
 }
 
 impl Problems {
-    pub(super) fn new(base: u32) -> Self {
-        Self {
-            base,
-            ..Self::default()
-        }
-    }
-
-    /// A range of bytes of the scene file as a span.
+    /// The range of a value of a scene file as a span: [`super::include::parse`] has made it one of the source map.
     pub(super) fn span(&self, range: Range<usize>) -> Span {
         // Source maps hold less than 4 GiB, so that no offset in them is larger.
-        let at = |offset: usize| self.base.saturating_add(offset as u32);
-        Span::new(at(range.start), at(range.end))
+        Span::new(range.start as u32, range.end as u32)
     }
 
     /// Whether there are so many errors that looking for more helps nobody.

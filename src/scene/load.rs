@@ -1,7 +1,7 @@
 //! From the bytes of a scene file to a [`Scene`].
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use super::draw::{self, Draw, Known, Names};
 use super::error::{Problems, SceneError, rules};
@@ -11,7 +11,7 @@ use super::section::{At, Node, ROOT, Section};
 use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
-use super::{LoadOptions, Scene, TextureEntry, TextureSource, mesh};
+use super::{LoadOptions, Scene, TextureEntry, TextureSource, include, mesh};
 use crate::diagnostic::{SourceMap, Span};
 use crate::raster;
 
@@ -20,9 +20,6 @@ pub const MAX_ENTRIES: usize = 1024;
 
 /// Most draws that a picture may take, those into render targets included, each as often as it is drawn.
 pub const MAX_DRAWS: usize = 1 << 15;
-
-/// A text that TOML brackets nest deeper in than this is refused before it is parsed.
-const MAX_NESTING: usize = 64;
 
 impl Scene {
     /// Reads a scene and everything that it names.
@@ -47,18 +44,9 @@ impl Scene {
                     problems.error(&rules::LIMIT, file.span(), error.to_string());
                 }
             }
-            Ok(file) => {
-                let span = file.span();
-                problems = Problems::new(span.start);
-                scene = match std::str::from_utf8(bytes) {
-                    Ok(text) => read(text, options, &mut files, &mut problems),
-                    Err(error) => {
-                        let at = error.valid_up_to();
-                        let place = problems.span(at..at + 1);
-                        problems.error(&rules::SYNTAX, place, "this is not UTF-8");
-                        None
-                    }
-                };
+            Ok(_) => {
+                // The scene file is the first of the map, so that its offsets are those of the map.
+                scene = read(bytes, options, &mut files, &mut problems);
                 sources = files.sources;
             }
         }
@@ -78,41 +66,19 @@ impl Scene {
     }
 }
 
-/// How deep brackets nest at most, those in texts and comments included.
-fn nesting(text: &str) -> usize {
-    let (mut depth, mut most) = (0_usize, 0);
-    for byte in text.bytes() {
-        match byte {
-            b'[' | b'{' => depth += 1,
-            b']' | b'}' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        most = most.max(depth);
-    }
-    most
-}
-
 fn read(
-    text: &str,
+    bytes: &[u8],
     options: &LoadOptions,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Scene> {
     let whole = problems.span(0..0);
-    if nesting(text) > MAX_NESTING {
-        let message = format!("brackets nest more than {MAX_NESTING} deep");
-        problems.error(&rules::LIMIT, whole, message);
-        return None;
-    }
-    let (table, errors) = DeTable::parse_recoverable(text);
-    for error in errors {
-        let place = error.span().map_or(whole, |range| problems.span(range));
-        problems.error(&rules::SYNTAX, place, error.message());
-    }
-    if problems.any_error() {
-        return None;
-    }
-    let mut root = Section::new(ROOT, table.into_inner(), whole, problems);
+    let table = include::parse(bytes, 0, problems)?;
+    // Declared first, so that it outlives what borrows from it.
+    let included;
+    let mut root = Section::new(ROOT, table, whole, problems);
+    included = include::read(&mut root, files, problems);
+    include::merge(&mut root, &included, problems);
     let size = size(&mut root, problems);
     let clear = root.array_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
     let time = root.or("time", 0.0, problems);
