@@ -109,7 +109,10 @@ fn report(arguments: &Arguments, sources: &SourceMap, found: &[Diagnostic]) -> O
     let mut text = diagnostics::render(sources, found);
     let name = sources.files().last().map_or("", |f| f.name());
     let summary = diagnostics::summary(found);
-    text.push_str(&format!("{name}: {}\n", summary.as_deref().unwrap_or("no complaints")));
+    text.push_str(&format!(
+        "{name}: {}\n",
+        summary.as_deref().unwrap_or("no complaints")
+    ));
     // With --fix the repaired text of standard input goes to standard output.
     if arguments.fix && name == files::name("-") {
         anstream::eprint!("{text}");

@@ -111,11 +111,7 @@ pub(super) fn read(
 }
 
 /// Adds what included files hold. Their draws come before those of the scene file.
-pub(super) fn merge<'t>(
-    root: &mut Section<'t>,
-    included: &'t [Included],
-    problems: &mut Problems,
-) {
+pub(super) fn merge<'t>(root: &mut Section<'t>, included: &'t [Included], problems: &mut Problems) {
     let mut draws = DeArray::new();
     for file in included {
         let Some(table) = parse(&file.bytes, file.base, problems) else {
@@ -125,7 +121,9 @@ pub(super) fn merge<'t>(
             let key_span = problems.span(key.span());
             let range = value.span();
             match (key.get_ref().as_ref(), value.into_inner()) {
-                ("draw", DeValue::Array(list)) => list.into_iter().for_each(|draw| draws.push(draw)),
+                ("draw", DeValue::Array(list)) => {
+                    list.into_iter().for_each(|draw| draws.push(draw))
+                }
                 (name, DeValue::Table(table)) if SHARED.contains(&name) => {
                     root.add_entries(name, table, range, problems);
                 }

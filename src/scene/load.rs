@@ -74,10 +74,8 @@ fn read(
 ) -> Option<Scene> {
     let whole = problems.span(0..0);
     let table = include::parse(bytes, 0, problems)?;
-    // Declared first, so that it outlives what borrows from it.
-    let included;
     let mut root = Section::new(ROOT, table, whole, problems);
-    included = include::read(&mut root, files, problems);
+    let included = include::read(&mut root, files, problems);
     include::merge(&mut root, &included, problems);
     let size = size(&mut root, problems);
     let clear = root.array_or("clear", [0.0, 0.0, 0.0, 1.0], problems);

@@ -3,7 +3,7 @@
 use super::rules;
 use super::{Damage, Parsed};
 use crate::diagnostic::{Diagnostic, SourceFile, Span};
-use crate::isa::{Opcode, RegisterFile, ShaderKind, WriteMask};
+use crate::isa::{Class, Opcode, RegisterFile, ShaderKind, Version, WriteMask};
 use crate::program::{Instruction, Register};
 
 /// What a texture instruction has loaded and nothing has read yet.
@@ -27,10 +27,15 @@ pub fn unread(file: &SourceFile, parsed: &Parsed) -> Vec<Diagnostic> {
     }
     let base = file.span().start;
     let text_of = |span: Span| {
-        let range = span.start.saturating_sub(base) as usize..span.end.saturating_sub(base) as usize;
+        let range =
+            span.start.saturating_sub(base) as usize..span.end.saturating_sub(base) as usize;
         String::from_utf8_lossy(file.bytes().get(range).unwrap_or(&[])).into_owned()
     };
-    let mut walk = Walk::default();
+    let mut walk = Walk {
+        version: program.version,
+        loads: Vec::new(),
+        lost: Vec::new(),
+    };
     let instructions: Vec<&Instruction> = program.instructions().collect();
     let mut damaged = parsed.damaged.iter().peekable();
     let mut i = 0;
@@ -41,7 +46,9 @@ pub fn unread(file: &SourceFile, parsed: &Parsed) -> Vec<Diagnostic> {
         let paired = instructions.get(i + 1).is_some_and(|next| next.co_issue);
         let group = &instructions[i..i + 1 + usize::from(paired)];
         group.iter().for_each(|instruction| walk.reads(instruction));
-        group.iter().for_each(|instruction| walk.writes(instruction));
+        group
+            .iter()
+            .for_each(|instruction| walk.writes(instruction));
         i += group.len();
     }
     for damage in damaged {
@@ -50,8 +57,8 @@ pub fn unread(file: &SourceFile, parsed: &Parsed) -> Vec<Diagnostic> {
     walk.finish()
 }
 
-#[derive(Default)]
 struct Walk {
+    version: Version,
     loads: Vec<Load>,
     lost: Vec<(Register, Span)>,
 }
@@ -74,19 +81,23 @@ impl Walk {
     }
 
     fn writes(&mut self, instruction: &Instruction) {
-        let Some(destination) = instruction.destination else {
+        let form = instruction.opcode.form(self.version);
+        let (Some(destination), Some(form)) = (instruction.destination, form) else {
             return;
         };
-        self.write(destination.register, destination.mask);
-        let loads = match instruction.opcode {
-            Opcode::TexLd | Opcode::TexCrd | Opcode::Tex | Opcode::TexCoord => true,
-            Opcode::TexBem | Opcode::TexBeml => true,
-            Opcode::TexReg2Ar | Opcode::TexReg2Gb | Opcode::TexReg2Rgb => true,
-            Opcode::TexM3x2Tex | Opcode::TexM3x3Tex | Opcode::TexM3x3 => true,
-            Opcode::TexM3x3Spec | Opcode::TexM3x3VSpec => true,
-            Opcode::TexDp3 | Opcode::TexDp3Tex => true,
-            _ => false,
+        let Some(shape) = form.destination else {
+            return;
         };
+        if !shape.written {
+            return;
+        }
+        self.write(destination.register, destination.mask);
+        // Pads and depths leave nothing in their register that could be read.
+        let leaves_nothing = matches!(
+            instruction.opcode,
+            Opcode::TexM3x2Pad | Opcode::TexM3x3Pad | Opcode::TexM3x2Depth
+        );
+        let loads = form.class == Class::Texture && !leaves_nothing;
         if loads {
             self.loads.push(Load {
                 register: destination.register,
@@ -111,7 +122,9 @@ impl Walk {
     fn damage(&mut self, damage: &Damage, text: &str) {
         let words = text.split(|c: char| !c.is_ascii_alphanumeric());
         let named: Vec<Register> = words.filter_map(register).collect();
-        let written = damage.destination.filter(|first| named.first() == Some(first));
+        let written = damage
+            .destination
+            .filter(|first| named.first() == Some(first));
         for register in &named[usize::from(written.is_some()).min(named.len())..] {
             self.read(*register);
         }
@@ -124,7 +137,8 @@ impl Walk {
         // r0 is what the shader returns.
         let result = Register::new(RegisterFile::Temp, 0);
         let left = self.loads.iter().filter(|load| load.register != result);
-        self.lost.extend(left.map(|load| (load.register, load.span)));
+        self.lost
+            .extend(left.map(|load| (load.register, load.span)));
         self.lost.sort_by_key(|(_, span)| *span);
         let warn = |(register, span): &(Register, Span)| {
             let message = format!("{register} is loaded here and never read");
