@@ -4,6 +4,8 @@
 
 pub mod diagnostic;
 pub mod exec;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod isa;
 pub mod kernel;
 pub mod listing;
@@ -17,3 +19,4 @@ pub mod semantics;
 pub mod syntax;
 pub mod texture;
 pub mod validate;
+pub mod wgsl;

@@ -18,6 +18,7 @@ mod load;
 mod mesh;
 mod prepare;
 mod render;
+mod rendered;
 mod resolve;
 mod section;
 mod shader;
@@ -42,6 +43,8 @@ pub use include::MAX_INCLUDES;
 pub use load::{MAX_DRAWS, MAX_ENTRIES};
 pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
 pub use render::{Progress, RenderError, RenderOptions, Show};
+#[cfg(feature = "gpu")]
+pub(crate) use rendered::{Rendered, clear_color};
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};
 pub use shader::Shader;
 pub use target::MAX_TARGET_SIDE;

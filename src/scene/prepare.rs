@@ -80,6 +80,23 @@ impl PreparedDraw<'_> {
             .to_array()
     }
 
+    /// Whether a constant that one of the shaders defines itself has been set to something else.
+    pub fn overrides_definitions(&self) -> bool {
+        let differs = |kernel: &Kernel, constants: &[[f32; 4]]| {
+            bind_constants(kernel, &[])
+                .iter()
+                .zip(constants)
+                .enumerate()
+                .any(|(register, (own, bound))| {
+                    own.map(f32::to_bits) != bound.map(f32::to_bits)
+                        && (kernel.definitions.iter())
+                            .any(|(defined, _)| *defined as usize == register)
+                })
+        };
+        differs(&self.vertex.kernel, &self.vertex_constants)
+            || differs(&self.pixel.kernel, &self.pixel_constants)
+    }
+
     /// The vertices of the primitives in order; `None`: all, as they come.
     pub fn indices(&self) -> Option<&[u32]> {
         (self.topology == Topology::TriangleList).then(|| self.mesh.indices())

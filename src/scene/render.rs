@@ -2,15 +2,15 @@
 
 use std::fmt;
 
+use super::Scene;
 use super::prepare::{Output, Pass, PreparedDraw};
-use super::{Scene, TextureSource};
+use super::rendered::{Rendered, clear_color};
 use crate::exec::{Environment, Stage};
 use crate::raster::{
     ColorFormat, DrawCall, DrawError, PixelProgram, RegisterPicture, Target, TargetTooLarge,
     Viewport, draw, shade_vertices,
 };
-use crate::texture::load::cube_from_faces;
-use crate::texture::{Texture, TextureError};
+use crate::texture::TextureError;
 
 /// How a scene is rendered.
 #[derive(Clone, Debug, Default)]
@@ -114,9 +114,7 @@ impl Scene {
         };
         let mut renderer = Renderer {
             scene: self,
-            rendered: vec![None; self.targets.len()],
-            derived: vec![None; self.textures.len()],
-            faces: Vec::new(),
+            rendered: Rendered::new(self),
             done: 0,
             total: passes.iter().map(|pass| pass.draws.len()).sum(),
             progress,
@@ -148,12 +146,7 @@ impl Scene {
 
 struct Renderer<'a> {
     scene: &'a Scene,
-    /// The targets that are done, by number.
-    rendered: Vec<Option<Texture>>,
-    /// What was made of targets, by the number of the texture.
-    derived: Vec<Option<Texture>>,
-    /// The faces of the target that is being rendered.
-    faces: Vec<Texture>,
+    rendered: Rendered<'a>,
     done: usize,
     total: usize,
     progress: &'a dyn Fn(Progress<'_>),
@@ -162,48 +155,11 @@ struct Renderer<'a> {
 impl Renderer<'_> {
     /// Renders a face of a target; with the last one it becomes a texture.
     fn target(&mut self, pass: &Pass<'_>, number: usize, face: usize) -> Result<(), RenderError> {
-        let Some(plan) = self.scene.targets.get(number) else {
-            return Ok(());
-        };
-        let refused = |error| RenderError::Texture {
-            target: plan.name.clone(),
-            error,
-        };
         let [width, height] = pass.size;
         let target = Target::new(width, height, ColorFormat::A8R8G8B8);
         let mut target = target.map_err(RenderError::Size)?;
         self.pass(pass, None, &mut target)?;
-        let picture = target.to_image();
-        let texture = Texture::from_rgba8(width, height, picture.as_raw()).map_err(refused)?;
-        if face == 0 {
-            self.faces.clear();
-        }
-        self.faces.push(texture);
-        if self.faces.len() < plan.faces() {
-            return Ok(());
-        }
-        let faces = std::mem::take(&mut self.faces);
-        let mut texture = match <[Texture; 6]>::try_from(faces) {
-            Ok(faces) => cube_from_faces(faces).map_err(refused)?,
-            Err(mut faces) => match faces.pop() {
-                Some(flat) => flat,
-                None => return Ok(()),
-            },
-        };
-        if plan.mipmaps {
-            texture.generate_mips().map_err(refused)?;
-        }
-        for (entry, place) in self.scene.textures.iter().zip(&mut self.derived) {
-            if let TextureSource::Irradiance { target, edge } = entry.source
-                && target == number
-            {
-                *place = Some(texture.irradiance(edge).map_err(refused)?);
-            }
-        }
-        if let Some(place) = self.rendered.get_mut(number) {
-            *place = Some(texture);
-        }
-        Ok(())
+        self.rendered.take_face(number, face, &target.to_image())
     }
 
     fn pass(
@@ -212,11 +168,7 @@ impl Renderer<'_> {
         shown: Option<(usize, RegisterPicture)>,
         target: &mut Target,
     ) -> Result<(), RenderError> {
-        // As a colour is written into eight bits: NaN is 0, halves go up.
-        let clear = pass
-            .clear
-            .map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
-        target.clear(Some(clear), Some(1.0), Some(0));
+        target.clear(Some(clear_color(pass.clear)), Some(1.0), Some(0));
         for (place, prepared) in pass.draws.iter().enumerate() {
             let picture = shown
                 .filter(|(at, _)| *at == place)
@@ -262,7 +214,9 @@ impl Renderer<'_> {
             stages: std::array::from_fn(|i| {
                 let stage = &prepared.stages[i];
                 Stage {
-                    texture: stage.texture.and_then(|number| self.texture(number)),
+                    texture: stage
+                        .texture
+                        .and_then(|number| self.rendered.texture(number)),
                     sampler: stage.sampler,
                     bump: stage.bump,
                 }
@@ -291,13 +245,5 @@ impl Renderer<'_> {
             draw: prepared.name.to_owned(),
             error,
         })
-    }
-
-    fn texture(&self, number: usize) -> Option<&Texture> {
-        match &self.scene.textures.get(number)?.source {
-            TextureSource::Loaded(texture) => Some(texture),
-            TextureSource::Target(target) => self.rendered.get(*target)?.as_ref(),
-            TextureSource::Irradiance { .. } => self.derived.get(number)?.as_ref(),
-        }
     }
 }

@@ -160,7 +160,7 @@ impl Format {
     }
 
     /// Whether every value that the format can hold is a whole number of 1/255, so that four bytes keep it exactly.
-    pub(super) fn is_packed(self) -> bool {
+    pub fn is_packed(self) -> bool {
         match self.layout() {
             Layout::Word { channels, .. } => channels.iter().all(|channel| {
                 matches!(
@@ -184,7 +184,7 @@ impl Format {
     }
 
     /// What a shader reads for a border texel: channels that the format lacks keep the format's own value.
-    pub(super) fn with_fill(self, mut border: [f32; 4]) -> [f32; 4] {
+    pub fn with_fill(self, mut border: [f32; 4]) -> [f32; 4] {
         if let Layout::Word { channels, .. } = self.layout() {
             for (value, channel) in border.iter_mut().zip(channels) {
                 match channel {

@@ -315,6 +315,22 @@ impl Texture {
         self.kind.face_count()
     }
 
+    /// All texels of a mip level as little-endian bytes, for a graphics card: face after face, slice after slice, row
+    /// after row, without gaps. A texel is red, green, blue, alpha; each one byte for 0 to 1 if the format
+    /// [is packed](Format::is_packed), else a 32-bit float. None if there is no such level.
+    pub fn level_bytes(&self, level: u32) -> Option<Vec<u8>> {
+        let level = self.levels.get(level as usize)?;
+        let range = level.offset..level.offset + level.face_len * self.face_count();
+        Some(match &self.texels {
+            Texels::Packed(words) => (words.get(range)?.iter())
+                .flat_map(|word| word.to_le_bytes())
+                .collect(),
+            Texels::Float(texels) => (texels.get(range)?.iter().flatten())
+                .flat_map(|value| value.to_le_bytes())
+                .collect(),
+        })
+    }
+
     /// One texel as a shader reads it; none outside the texture.
     pub fn texel(&self, face: usize, level: u32, x: u32, y: u32, z: u32) -> Option<[f32; 4]> {
         let level = self.levels.get(level as usize)?;

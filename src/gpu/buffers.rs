@@ -1,0 +1,90 @@
+//! Vertex, index and uniform buffers of one frame.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::vertex::primitive_indices;
+use super::{Device, Stream};
+use crate::mesh::Mesh;
+use crate::raster::Topology;
+
+/// A buffer that holds these bytes, or four zeros if there are none.
+fn filled(device: &Device, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: (bytes.len() as u64).next_multiple_of(4).max(4),
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    // All content is made of 32-bit numbers.
+    device.queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}
+
+/// The meshes of a scene on the device. They are told apart by where they lie, so this must not outlive the scene.
+#[derive(Debug, Default)]
+pub(super) struct MeshBuffers {
+    streams: HashMap<(*const Mesh, Stream), wgpu::Buffer>,
+    indices: HashMap<(*const Mesh, u32), Option<(wgpu::Buffer, u32)>>,
+}
+
+impl MeshBuffers {
+    /// The vertex buffer for a stream of a mesh.
+    pub(super) fn stream(&mut self, device: &Device, mesh: &Mesh, stream: Stream) -> wgpu::Buffer {
+        let known = self.streams.entry((mesh, stream));
+        let create = || filled(device, &stream.bytes(mesh), wgpu::BufferUsages::VERTEX);
+        known.or_insert_with(create).clone()
+    }
+
+    /// The index buffer and how many indices there are, for topologies that take one.
+    pub(super) fn indices(
+        &mut self,
+        device: &Device,
+        mesh: &Mesh,
+        topology: Topology,
+    ) -> Option<(wgpu::Buffer, u32)> {
+        let known = self.indices.entry((mesh, topology.number()));
+        let create = || {
+            let indices = primitive_indices(topology, mesh)?;
+            let bytes: Vec<u8> = indices
+                .iter()
+                .flat_map(|index| index.to_le_bytes())
+                .collect();
+            let buffer = filled(device, &bytes, wgpu::BufferUsages::INDEX);
+            Some((buffer, indices.len() as u32))
+        };
+        known.or_insert_with(create).clone()
+    }
+}
+
+/// The uniform blocks of a pass, uploaded together.
+pub(super) struct UniformArena {
+    bytes: Vec<u8>,
+    alignment: usize,
+}
+
+impl UniformArena {
+    pub(super) fn new(device: &Device) -> Self {
+        Self {
+            bytes: Vec::new(),
+            alignment: device
+                .device
+                .limits()
+                .min_uniform_buffer_offset_alignment
+                .max(16) as usize,
+        }
+    }
+
+    /// Adds a block; gives its place in the buffer.
+    pub(super) fn push(&mut self, block: &[u8]) -> Range<u64> {
+        let start = self.bytes.len().next_multiple_of(self.alignment);
+        self.bytes.resize(start, 0);
+        self.bytes.extend_from_slice(block);
+        start as u64..(start + block.len()) as u64
+    }
+
+    /// The buffer with all blocks.
+    pub(super) fn upload(&self, device: &Device) -> wgpu::Buffer {
+        filled(device, &self.bytes, wgpu::BufferUsages::UNIFORM)
+    }
+}

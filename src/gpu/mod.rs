@@ -1,0 +1,43 @@
+//! Scenes on the GPU, through `wgpu`, and the parts of that which an engine needs to draw with an old shader pair itself.
+//!
+//! [`adapters`] lists what there is to draw with, [`Device::open`] opens one, and a [`Renderer`] draws a
+//! [`Scene`](crate::scene::Scene) with it into a picture; no window is needed. The WGSL is that of
+//! [`crate::wgsl::translate`].
+//!
+//! # In an engine of one's own
+//!
+//! [`translate`](crate::wgsl::translate) gives the WGSL and a [`Reflection`](crate::wgsl::Reflection). From the reflection
+//! follow the bind group layouts ([`bind_group_layouts`]), the vertex buffers ([`VertexLayout`], of a Direct3D 8 declaration)
+//! and the content of the uniform blocks ([`Uniforms::block`]); from the render states the rest of the pipeline
+//! ([`fixed_state`]).
+//!
+//! # What is not the same as on the CPU
+//!
+//! - The coverage of triangle edges and the level of detail are the device's own, within what WebGPU allows.
+//! - Steps of `D3DRS_ZBIAS` are smaller for depths below 0.5 ([`fixed_state`]).
+//! - Floats are filtered as 16-bit ones where the device cannot filter 32-bit ones ([`AdapterInfo::float_filtering`]).
+//! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
+//!
+//! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
+//! consists of), `pipeline`, `buffers`, `picture`, `renderer`.
+
+mod buffers;
+mod device;
+mod error;
+mod picture;
+mod pipeline;
+mod renderer;
+mod state;
+mod texture;
+mod uniform;
+mod vertex;
+
+pub use device::{AdapterInfo, Device, adapters};
+pub use error::GpuError;
+pub use pipeline::bind_group_layouts;
+pub use renderer::Renderer;
+pub use state::{FixedState, fixed_state};
+pub use uniform::{StageUniforms, Uniforms};
+pub use vertex::{Stream, VertexLayout, primitive_indices};
+/// The version of `wgpu` that this crate draws with.
+pub use wgpu;

@@ -1,0 +1,174 @@
+//! Vertex buffers from a declaration, and the order in which vertices are drawn.
+
+use crate::mesh::{Attribute, Mesh};
+use crate::raster::Topology;
+use crate::scene::Declaration;
+use crate::wgsl::VertexInput;
+
+/// What one vertex buffer holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stream {
+    /// An attribute of the mesh, one value a vertex.
+    Mesh(Attribute),
+    /// (0, 0, 0, 1) for all vertices: what a register reads that nothing feeds.
+    Default,
+}
+
+/// The vertex buffers of a pipeline: which attribute lies in which, and which registers read it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct VertexLayout {
+    buffers: Vec<(Stream, Vec<wgpu::VertexAttribute>)>,
+    instanced: bool,
+}
+
+impl VertexLayout {
+    /// The layout for registers that a vertex shader reads, fed as a declaration says: one buffer an attribute.
+    /// `instanced`: points are drawn as quads, one instance each.
+    pub fn new(declaration: &Declaration, inputs: &[VertexInput], instanced: bool) -> Self {
+        let mut buffers: Vec<(Stream, Vec<wgpu::VertexAttribute>)> = Vec::new();
+        for input in inputs {
+            let attribute = declaration.get(input.register as usize).copied().flatten();
+            let stream = attribute.map_or(Stream::Default, Stream::Mesh);
+            let read = wgpu::VertexAttribute {
+                format: match stream.components() {
+                    2 => wgpu::VertexFormat::Float32x2,
+                    3 => wgpu::VertexFormat::Float32x3,
+                    _ => wgpu::VertexFormat::Float32x4,
+                },
+                offset: 0,
+                shader_location: input.register,
+            };
+            match buffers.iter_mut().find(|(known, _)| *known == stream) {
+                Some((_, reads)) => reads.push(read),
+                None => buffers.push((stream, vec![read])),
+            }
+        }
+        Self { buffers, instanced }
+    }
+
+    /// What the vertex buffers hold, by slot.
+    pub fn streams(&self) -> impl Iterator<Item = Stream> + '_ {
+        self.buffers.iter().map(|(stream, _)| *stream)
+    }
+
+    /// The layout as a pipeline wants it.
+    pub fn buffers(&self) -> Vec<wgpu::VertexBufferLayout<'_>> {
+        let step_mode = if self.instanced {
+            wgpu::VertexStepMode::Instance
+        } else {
+            wgpu::VertexStepMode::Vertex
+        };
+        self.buffers
+            .iter()
+            .map(|(stream, attributes)| wgpu::VertexBufferLayout {
+                array_stride: stream.stride(),
+                step_mode,
+                attributes,
+            })
+            .collect()
+    }
+}
+
+impl Stream {
+    /// How many floats a vertex has.
+    fn components(self) -> usize {
+        match self {
+            Self::Mesh(attribute) => attribute.components(),
+            Self::Default => 4,
+        }
+    }
+
+    /// Bytes from one vertex to the next; 0 where all share one.
+    fn stride(self) -> u64 {
+        match self {
+            Self::Mesh(attribute) => 4 * attribute.components() as u64,
+            Self::Default => 0,
+        }
+    }
+
+    /// The content of the buffer for a mesh.
+    pub fn bytes(self, mesh: &Mesh) -> Vec<u8> {
+        let of = |values: &[f32]| -> Vec<u8> {
+            values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect()
+        };
+        match self {
+            Self::Mesh(attribute) => (mesh.stream(attribute).iter())
+                .flat_map(|value| of(&value.to_array()[..attribute.components()]))
+                .collect(),
+            Self::Default => of(&[0.0, 0.0, 0.0, 1.0]),
+        }
+    }
+}
+
+/// The indices to draw with, if it takes any: those of the mesh for a triangle list; strips and fans become lists, in the
+/// order that Direct3D gives their corners, so that winding and flat colours are the same.
+pub fn primitive_indices(topology: Topology, mesh: &Mesh) -> Option<Vec<u32>> {
+    let triangles = (mesh.vertex_count() as u32).saturating_sub(2);
+    match topology {
+        Topology::PointList | Topology::LineList | Topology::LineStrip => None,
+        Topology::TriangleList => Some(mesh.indices().to_vec()),
+        Topology::TriangleStrip => Some(
+            (0..triangles)
+                .flat_map(|i| match i % 2 {
+                    0 => [i, i + 1, i + 2],
+                    _ => [i, i + 2, i + 1],
+                })
+                .collect(),
+        ),
+        Topology::TriangleFan => Some((0..triangles).flat_map(|i| [i + 1, i + 2, 0]).collect()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::MeshData;
+    use glam::Vec3;
+
+    fn input(register: u32) -> VertexInput {
+        VertexInput {
+            register,
+            usage: None,
+        }
+    }
+
+    #[test]
+    fn registers_share_the_buffer_of_an_attribute() {
+        let mut declaration: Declaration = [None; 16];
+        declaration[0] = Some(Attribute::Position);
+        declaration[4] = Some(Attribute::Texcoord);
+        declaration[5] = Some(Attribute::Position);
+        let inputs = [input(0), input(4), input(5), input(9)];
+        let layout = VertexLayout::new(&declaration, &inputs, false);
+        let streams: Vec<_> = layout.streams().collect();
+        let position = Stream::Mesh(Attribute::Position);
+        let texcoord = Stream::Mesh(Attribute::Texcoord);
+        assert_eq!(streams, [position, texcoord, Stream::Default]);
+        let buffers = layout.buffers();
+        let strides: Vec<_> = buffers.iter().map(|buffer| buffer.array_stride).collect();
+        assert_eq!(strides, [12, 8, 0]);
+        let locations: Vec<_> = (buffers[0].attributes.iter())
+            .map(|attribute| attribute.shader_location)
+            .collect();
+        assert_eq!(locations, [0, 5]);
+    }
+
+    #[test]
+    fn strips_and_fans_keep_direct3ds_order() {
+        let mesh = Mesh::new(MeshData {
+            positions: (0..5)
+                .map(|i| Vec3::new(i as f32, (i * i) as f32, 0.0))
+                .collect(),
+            ..MeshData::default()
+        })
+        .unwrap();
+        let strip = primitive_indices(Topology::TriangleStrip, &mesh).unwrap();
+        assert_eq!(strip, [0, 1, 2, 1, 3, 2, 2, 3, 4]);
+        let fan = primitive_indices(Topology::TriangleFan, &mesh).unwrap();
+        assert_eq!(fan, [1, 2, 0, 2, 3, 0, 3, 4, 0]);
+        assert_eq!(primitive_indices(Topology::LineStrip, &mesh), None);
+    }
+}
