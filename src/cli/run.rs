@@ -6,6 +6,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use texcrd::diagnostic::{Diagnostic, SourceFile};
 use texcrd::policy::Dialect;
 use texcrd::raster::RegisterPicture;
 use texcrd::scene::{DirectoryResolver, LoadOptions, PreparedDraw, RenderOptions, Scene};
@@ -108,8 +109,7 @@ fn load(arguments: &Arguments) -> Result<Scene, Failure> {
     };
     match Scene::load(files::name(&arguments.scene), &bytes, &resolver, &options) {
         Ok(scene) => {
-            let warnings = diagnostics::render(scene.sources(), scene.warnings());
-            anstream::eprint!("{warnings}");
+            warn(&scene);
             Ok(scene)
         }
         Err(error) => {
@@ -119,6 +119,28 @@ fn load(arguments: &Arguments) -> Result<Scene, Failure> {
             );
             let summary = diagnostics::summary(&error.diagnostics).unwrap_or_default();
             Err(Failure::Input(format!("{}: {summary}", arguments.scene)))
+        }
+    }
+}
+
+/// Warnings of the scene file in full; those of its listings are counted: whoever draws a picture is not about to
+/// change a listing, and `check` tells them.
+fn warn(scene: &Scene) {
+    let file = |warning: &Diagnostic| {
+        scene
+            .sources()
+            .file_of(warning.span.start)
+            .map(SourceFile::name)
+    };
+    let is_listing = |warning: &&Diagnostic| !warning.rule.id.starts_with('F');
+    let (listings, own): (Vec<_>, Vec<_>) = scene.warnings().iter().partition(is_listing);
+    let own: Vec<Diagnostic> = own.into_iter().cloned().collect();
+    anstream::eprint!("{}", diagnostics::render(scene.sources(), &own));
+    for of_file in listings.chunk_by(|a, b| file(a) == file(b)) {
+        let of_file: Vec<Diagnostic> = of_file.iter().map(|d| (*d).clone()).collect();
+        if let (Some(first), Some(summary)) = (of_file.first(), diagnostics::summary(&of_file)) {
+            let name = file(first).unwrap_or_default();
+            anstream::eprintln!("{name}: {summary} (`texcrd check {name}` shows them)");
         }
     }
 }
