@@ -87,9 +87,8 @@ fn fix(path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
         repaired += count;
         bytes = fixed;
     }
-    if path == "-" {
-        files::write(Path::new(path), &bytes)?;
-    } else if bytes != original {
+    // What came from standard input goes to standard output, repaired or not.
+    if path == "-" || bytes != original {
         files::write(Path::new(path), &bytes)?;
     }
     if repaired > 0 {

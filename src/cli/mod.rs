@@ -3,11 +3,14 @@
 //! Results go to standard output, talk to standard error. Exit status: 0 done; 1 the input is wrong or a check
 //! failed; 2 usage or input and output.
 
+mod adapters;
 mod check;
+mod compare;
 mod diagnostics;
 mod eval;
 mod files;
 mod run;
+mod scene;
 mod show;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -32,7 +35,9 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Adapters(adapters::Arguments),
     Check(check::Arguments),
+    Compare(compare::Arguments),
     Eval(eval::Arguments),
     Run(run::Arguments),
 }
@@ -71,6 +76,8 @@ type Outcome = Result<(), Failure>;
 /// Parses the arguments and runs the command.
 pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
+        Command::Adapters(arguments) => adapters::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),

@@ -1,16 +1,25 @@
 //! `run`: a scene to a picture.
 
 use super::show::Show;
-use super::{Failure, Outcome, diagnostics, dialect, files};
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use super::{Failure, Outcome, dialect, scene};
+use clap::ValueEnum;
+use image::RgbaImage;
+use std::path::PathBuf;
 use texcrd::policy::Dialect;
 use texcrd::raster::RegisterPicture;
-use texcrd::scene::{DirectoryResolver, LoadOptions, PreparedDraw, RenderOptions, Scene};
+use texcrd::scene::{PreparedDraw, RenderOptions, Scene};
 
-/// Renders a scene on the CPU and writes a PNG.
+/// Who draws.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Path {
+    /// The interpreter and rasterizer of this program.
+    #[default]
+    Cpu,
+    /// A GPU, or a software adapter, through WGSL.
+    Gpu,
+}
+
+/// Renders a scene on the CPU or the GPU and writes a PNG.
 ///
 /// The scene file is described in docs/scene.md. `--show` pictures a register of one draw instead of its colour.
 #[derive(clap::Args)]
@@ -19,6 +28,7 @@ Examples:
   texcrd run asm/stained_glass/scene.toml -o stained_glass.png
   texcrd run scene.toml -o small.png --size 320x240
   texcrd run asm/stained_glass/figure5.toml -o figure4.png --show oT5 --mag
+  texcrd run scene.toml -o gpu.png --on gpu
   texcrd run scene.toml -o r2.png --show r2@12 --abs --scale 0.5")]
 pub(super) struct Arguments {
     /// The scene file.
@@ -28,8 +38,14 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
     /// Width and height in pixels instead of those of the scene.
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = scene::size)]
     size: Option<[u32; 2]>,
+    /// Who draws.
+    #[arg(long, value_enum, default_value_t)]
+    on: Path,
+    /// The GPU: its number in `texcrd adapters`, or a part of its name. Without it the first one.
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
     /// Picture a register: r2@12 is r2 after line 12 of the pixel shader, oT5 an output of the vertex shader as it
     /// reaches the pixel, r0.a one component as grey.
     #[arg(long, value_name = "EXPR")]
@@ -57,70 +73,41 @@ pub(super) struct Arguments {
     dialect: Dialect,
 }
 
-/// The value parser of `--size`.
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let wrong = || format!("`{text}` is no size: write 1280x960");
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let number = |text: &str| text.parse().map_err(|_| wrong());
-    Ok([number(width)?, number(height)?])
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if arguments.on == Path::Gpu && arguments.show.is_some() {
+        return Err(Failure::Io(
+            "--show: registers are pictured on the CPU".into(),
+        ));
+    }
+    if arguments.on == Path::Cpu && arguments.adapter.is_some() {
+        return Err(Failure::Io("--adapter: only with --on gpu".into()));
+    }
+    let scene = scene::load(&arguments.scene, arguments.dialect)?;
+    let picture = match arguments.on {
+        Path::Cpu => on_cpu(arguments, &scene)?,
+        Path::Gpu => {
+            let device = scene::device(arguments.adapter.as_deref())?;
+            scene::draw_on_gpu(&device, &scene, &arguments.scene, arguments.size)?
+        }
+    };
+    scene::write_png(&arguments.output, &picture)
 }
 
-pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let scene = load(arguments)?;
+fn on_cpu(arguments: &Arguments, scene: &Scene) -> Result<RgbaImage, Failure> {
     let show = match &arguments.show {
-        Some(show) => Some(register(arguments, show, &scene)?),
+        Some(show) => Some(register(arguments, show, scene)?),
         None => None,
     };
     let options = RenderOptions {
         size: arguments.size,
         show,
     };
-    let bar = progress_bar();
+    let bar = scene::progress_bar();
     let target = scene
-        .render(&options, &|progress| {
-            bar.set_length(progress.total as u64);
-            bar.set_position(progress.done as u64);
-            bar.set_message(match progress.target {
-                Some(target) => format!("{} into {target}", progress.draw),
-                None => progress.draw.to_string(),
-            });
-        })
+        .render(&options, &|progress| scene::show(&bar, &progress))
         .map_err(|e| Failure::Input(format!("{}: {e}", arguments.scene)))?;
     bar.finish_and_clear();
-
-    let mut png = Vec::new();
-    let encoder =
-        PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
-    (target.to_image().write_with_encoder(encoder))
-        .map_err(|e| Failure::Input(format!("the picture cannot be written as PNG: {e}")))?;
-    files::write(&arguments.output, &png)
-}
-
-/// Reads the scene and says what is wrong with it.
-fn load(arguments: &Arguments) -> Result<Scene, Failure> {
-    let bytes = files::read(&arguments.scene)?;
-    let folder = Path::new(&arguments.scene)
-        .parent()
-        .unwrap_or(Path::new(""));
-    let resolver = DirectoryResolver::new(folder);
-    let options = LoadOptions {
-        dialect: arguments.dialect,
-    };
-    match Scene::load(files::name(&arguments.scene), &bytes, &resolver, &options) {
-        Ok(scene) => {
-            let warnings = diagnostics::render(scene.sources(), scene.warnings());
-            anstream::eprint!("{warnings}");
-            Ok(scene)
-        }
-        Err(error) => {
-            anstream::eprint!(
-                "{}",
-                diagnostics::render(&error.sources, &error.diagnostics)
-            );
-            let summary = diagnostics::summary(&error.diagnostics).unwrap_or_default();
-            Err(Failure::Input(format!("{}: {summary}", arguments.scene)))
-        }
-    }
+    Ok(target.to_image())
 }
 
 /// The register to show, as the pixel shader of its draw has it.
@@ -165,16 +152,4 @@ fn register(
             scale: arguments.scale,
         },
     })
-}
-
-/// A bar on a terminal, nothing in a pipe.
-fn progress_bar() -> ProgressBar {
-    let bar = ProgressBar::no_length();
-    if !std::io::stderr().is_terminal() {
-        bar.set_draw_target(ProgressDrawTarget::hidden());
-    }
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -19,10 +19,11 @@
 //! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
-//! consists of), `pipeline`, `buffers`, `picture`, `renderer`.
+//! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures.
 
 mod buffers;
 mod device;
+mod differences;
 mod error;
 mod picture;
 mod pipeline;
@@ -33,6 +34,7 @@ mod uniform;
 mod vertex;
 
 pub use device::{AdapterInfo, Device, adapters};
+pub use differences::{Differences, WorstPixel};
 pub use error::GpuError;
 pub use pipeline::bind_group_layouts;
 pub use renderer::Renderer;

@@ -1,0 +1,117 @@
+//! What commands that draw scenes have in common: reading, progress, writing of pictures.
+
+use super::{Failure, Outcome, diagnostics, files};
+use image::RgbaImage;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::Path;
+use texcrd::diagnostic::{Diagnostic, SourceFile};
+use texcrd::gpu::{Device, GpuError, Renderer};
+use texcrd::policy::Dialect;
+use texcrd::scene::{DirectoryResolver, LoadOptions, Progress, Scene};
+
+/// The value parser of `--size`.
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || format!("`{text}` is no size: write 1280x960");
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
+    let number = |text: &str| text.parse().map_err(|_| wrong());
+    Ok([number(width)?, number(height)?])
+}
+
+/// Reads the scene and says what is wrong with it.
+pub(super) fn load(path: &str, dialect: Dialect) -> Result<Scene, Failure> {
+    let bytes = files::read(path)?;
+    let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+    let resolver = DirectoryResolver::new(folder);
+    let options = LoadOptions { dialect };
+    match Scene::load(files::name(path), &bytes, &resolver, &options) {
+        Ok(scene) => {
+            warn(&scene);
+            Ok(scene)
+        }
+        Err(error) => {
+            anstream::eprint!(
+                "{}",
+                diagnostics::render(&error.sources, &error.diagnostics)
+            );
+            let summary = diagnostics::summary(&error.diagnostics).unwrap_or_default();
+            Err(Failure::Input(format!("{}: {summary}", path)))
+        }
+    }
+}
+
+/// Warnings of the scene file in full; those of its listings are counted: whoever draws a picture is not about to
+/// change a listing, and `check` tells them.
+fn warn(scene: &Scene) {
+    let file = |warning: &Diagnostic| {
+        scene
+            .sources()
+            .file_of(warning.span.start)
+            .map(SourceFile::name)
+    };
+    let is_listing = |warning: &&Diagnostic| !warning.rule.id.starts_with('F');
+    let (listings, own): (Vec<_>, Vec<_>) = scene.warnings().iter().partition(is_listing);
+    let own: Vec<Diagnostic> = own.into_iter().cloned().collect();
+    anstream::eprint!("{}", diagnostics::render(scene.sources(), &own));
+    for of_file in listings.chunk_by(|a, b| file(a) == file(b)) {
+        let of_file: Vec<Diagnostic> = of_file.iter().map(|d| (*d).clone()).collect();
+        if let (Some(first), Some(summary)) = (of_file.first(), diagnostics::summary(&of_file)) {
+            let name = file(first).unwrap_or_default();
+            anstream::eprintln!("{name}: {summary} (`texcrd check {name}` shows them)");
+        }
+    }
+}
+
+/// Opens the adapter that `--adapter` names.
+pub(super) fn device(adapter: Option<&str>) -> Result<Device, Failure> {
+    Device::open(adapter).map_err(|error| match error {
+        GpuError::NoSuchAdapter { .. } => Failure::Io(format!("--adapter: {error}")),
+        _ => Failure::Io(error.to_string()),
+    })
+}
+
+/// Draws a scene on the GPU, with a bar while it lasts.
+pub(super) fn draw_on_gpu(
+    device: &Device,
+    scene: &Scene,
+    path: &str,
+    size: Option<[u32; 2]>,
+) -> Result<RgbaImage, Failure> {
+    let bar = progress_bar();
+    let picture = Renderer::new(device).render(scene, size, &|progress| show(&bar, &progress));
+    bar.finish_and_clear();
+    picture.map_err(|error| Failure::Input(format!("{path}: {error}")))
+}
+
+/// Writes a picture as PNG.
+pub(super) fn write_png(path: &Path, picture: &RgbaImage) -> Outcome {
+    let mut png = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
+    (picture.write_with_encoder(encoder))
+        .map_err(|e| Failure::Input(format!("the picture cannot be written as PNG: {e}")))?;
+    files::write(path, &png)
+}
+
+/// Shows on a bar how far a picture is.
+pub(super) fn show(bar: &ProgressBar, progress: &Progress<'_>) {
+    bar.set_length(progress.total as u64);
+    bar.set_position(progress.done as u64);
+    bar.set_message(match progress.target {
+        Some(target) => format!("{} into {target}", progress.draw),
+        None => progress.draw.to_string(),
+    });
+}
+
+/// A bar on a terminal, nothing in a pipe.
+pub(super) fn progress_bar() -> ProgressBar {
+    let bar = ProgressBar::no_length();
+    if !std::io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
