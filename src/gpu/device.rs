@@ -55,32 +55,37 @@ impl fmt::Display for AdapterInfo {
     }
 }
 
-/// The adapters in the order in which one is chosen: real GPUs before software, then as the system lists them.
+/// The adapters in the order in which one is chosen: real GPUs before software, then as the system lists them. OpenGL
+/// counts only where there is nothing else.
 fn ordered() -> Vec<(wgpu::Adapter, AdapterInfo)> {
     let mut description = wgpu::InstanceDescriptor::new_without_display_handle();
     // Checks by the driver's own layers are for those who write drivers, and print to the terminal.
     description.flags = wgpu::InstanceFlags::empty();
     let instance = wgpu::Instance::new(description);
-    let mut adapters: Vec<_> =
-        pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
-            .into_iter()
+    let of = |backends| pollster::block_on(instance.enumerate_adapters(backends));
+    let mut found = of(wgpu::Backends::PRIMARY);
+    if found.is_empty() {
+        // OpenGL can do less, lists the same cards again, and some of its drivers print to the terminal.
+        found = of(wgpu::Backends::SECONDARY);
+    }
+    let mut adapters: Vec<_> = found
+        .into_iter()
             .map(|adapter| {
                 let info = AdapterInfo::of(&adapter);
                 (adapter, info)
             })
             .collect();
-    adapters.sort_by_key(|(_, info)| match (info.kind, info.backend.as_str()) {
-        // The same card through OpenGL can do less.
-        (_, "gl") => 4,
-        ("discrete", _) => 0,
-        ("integrated", _) => 1,
-        ("software", _) => 3,
+    adapters.sort_by_key(|(_, info)| match info.kind {
+        "discrete" => 0,
+        "integrated" => 1,
+        "software" => 3,
         _ => 2,
     });
     adapters
 }
 
-/// The adapters of this machine, those first that are chosen first.
+/// The adapters of this machine, those first that are chosen first. Those of OpenGL are listed only where there are no
+/// others.
 pub fn adapters() -> Vec<AdapterInfo> {
     ordered().into_iter().map(|(_, info)| info).collect()
 }
