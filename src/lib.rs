@@ -17,3 +17,4 @@ pub mod semantics;
 pub mod syntax;
 pub mod texture;
 pub mod validate;
+pub mod wgsl;
