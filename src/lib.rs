@@ -21,6 +21,7 @@ pub mod semantics;
 pub mod syntax;
 pub mod texture;
 pub mod validate;
+pub mod wgsl;
 
 /// The example of the first page, run as a test.
 #[cfg(doctest)]
