@@ -12,6 +12,8 @@ pub mod exec;
 pub mod gpu;
 pub mod isa;
 pub mod kernel;
+#[cfg(feature = "languages")]
+pub mod languages;
 pub mod listing;
 pub mod mesh;
 pub mod policy;

@@ -9,22 +9,26 @@ mod compare;
 mod diagnostics;
 mod eval;
 mod files;
+mod reflect;
 mod run;
 mod scene;
 mod show;
+mod translate;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use std::fmt;
 use std::process::ExitCode;
 use texcrd::policy::Dialect;
 
-/// Runs and checks the shader assembly of Direct3D 8: vs.1.0, vs.1.1 and ps.1.0 to ps.1.4.
+/// Runs, checks and translates the shader assembly of Direct3D 8: vs.1.0, vs.1.1 and ps.1.0 to ps.1.4.
 #[derive(Parser)]
 #[command(version, propagate_version = true, arg_required_else_help = true)]
 #[command(after_help = "\
 Examples:
   texcrd run asm/stained_glass/scene.toml -o stained_glass.png
   texcrd check --stats shader.psh
+  texcrd translate shader.vsh shader.psh -o shader.wgsl
+  texcrd compare asm/stained_glass/figure5.toml
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
 
 `-` is standard input. Exit status: 0 done, 1 the input is wrong, 2 usage or I/O.")]
@@ -40,6 +44,7 @@ enum Command {
     Compare(compare::Arguments),
     Eval(eval::Arguments),
     Run(run::Arguments),
+    Translate(translate::Arguments),
 }
 
 /// How results are written.
@@ -81,6 +86,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Translate(arguments) => translate::run(&arguments),
     };
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;

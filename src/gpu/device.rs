@@ -70,11 +70,11 @@ fn ordered() -> Vec<(wgpu::Adapter, AdapterInfo)> {
     }
     let mut adapters: Vec<_> = found
         .into_iter()
-            .map(|adapter| {
-                let info = AdapterInfo::of(&adapter);
-                (adapter, info)
-            })
-            .collect();
+        .map(|adapter| {
+            let info = AdapterInfo::of(&adapter);
+            (adapter, info)
+        })
+        .collect();
     adapters.sort_by_key(|(_, info)| match info.kind {
         "discrete" => 0,
         "integrated" => 1,

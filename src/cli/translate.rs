@@ -1,0 +1,198 @@
+//! `translate`: listings to WGSL and other shading languages.
+
+use super::{Failure, Outcome, diagnostics, dialect, files, print, print_json, reflect};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use texcrd::diagnostic::{SourceMap, any_error};
+use texcrd::isa::{Opcode, ShaderKind};
+use texcrd::kernel::{self, Kernel};
+use texcrd::languages::{self, Language};
+use texcrd::listing;
+use texcrd::policy::Dialect;
+use texcrd::program::Program;
+use texcrd::raster::{Compare, FogDistance, FogMode};
+use texcrd::texture::TextureKind;
+use texcrd::wgsl::{Fog, Options, Stage, translate};
+
+/// Translates one listing, or a vertex and a pixel shader linked into one module.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  texcrd translate shader.psh
+  texcrd translate asm/stained_glass/stained_glass.vsh asm/stained_glass/stained_glass.psh -o glass.wgsl
+  texcrd translate shader.psh --texture 3=cube --reflect
+  texcrd translate shader.vsh shader.psh --to glsl -o shader       writes shader.vert and shader.frag")]
+pub(super) struct Arguments {
+    /// The listings: one, or two of which one is a vertex and one a pixel shader; `-` is standard input.
+    #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
+    files: Vec<String>,
+    /// The language: wgsl, spirv, glsl, hlsl or msl.
+    #[arg(long, value_name = "LANGUAGE", default_value = "wgsl")]
+    to: Target,
+    /// Where the result goes; without it standard output.
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Print what binds where as JSON instead, or beside the file that `-o` names.
+    #[arg(long)]
+    reflect: bool,
+    /// The kind of texture that is bound to a stage: 2d, cube, volume or none. Without it 2d, or cube where texm3x3tex
+    /// and its kin sample.
+    #[arg(long = "texture", value_name = "STAGE=KIND", value_parser = texture)]
+    textures: Vec<(usize, Option<TextureKind>)>,
+    /// Bake fog in: none takes it from the vertices, exp, exp2 and linear from the distance.
+    #[arg(long, value_name = "MODE")]
+    fog: Option<FogMode>,
+    /// The distance of table fog: z or w.
+    #[arg(long, value_name = "Z", default_value = "w", requires = "fog")]
+    fog_distance: FogDistance,
+    /// Bake an alpha test in: less, greaterequal, …
+    #[arg(long, value_name = "FUNC")]
+    alpha_test: Option<Compare>,
+    /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
+    #[arg(long, value_parser = dialect, default_value = "d3d8")]
+    dialect: Dialect,
+}
+
+/// A language on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Target {
+    Wgsl,
+    Other(Language),
+}
+
+impl FromStr for Target {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.eq_ignore_ascii_case("wgsl") {
+            true => Ok(Self::Wgsl),
+            false => text.parse().map(Self::Other),
+        }
+    }
+}
+
+/// The value parser of `--texture`.
+fn texture(text: &str) -> Result<(usize, Option<TextureKind>), String> {
+    let wrong = || format!("`{text}`: write 3=cube; there are stages 0 to 7");
+    let (stage, kind) = text.split_once('=').ok_or_else(wrong)?;
+    let stage = stage
+        .parse()
+        .ok()
+        .filter(|stage| *stage < 8)
+        .ok_or_else(wrong)?;
+    let kind = match kind {
+        "none" => None,
+        kind => Some(kind.parse().map_err(|error| format!("{error}, none"))?),
+    };
+    Ok((stage, kind))
+}
+
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let mut sources = SourceMap::new();
+    let mut shaders = Vec::new();
+    for path in &arguments.files {
+        shaders.push(read(path, arguments.dialect, &mut sources)?);
+    }
+    let stage_of = |kind: ShaderKind| {
+        let found = shaders.iter().find(|(p, _)| p.version.kind() == kind)?;
+        Some(Stage {
+            program: &found.0,
+            kernel: &found.1,
+            source: &sources,
+        })
+    };
+    let (vertex, pixel) = (stage_of(ShaderKind::Vertex), stage_of(ShaderKind::Pixel));
+    if shaders.len() == 2 && (vertex.is_none() || pixel.is_none()) {
+        let message = "two listings are linked if one is a vertex and one a pixel shader";
+        return Err(Failure::Io(message.into()));
+    }
+    let options = options(arguments, pixel.as_ref().map(|stage| stage.program));
+    let translation =
+        translate(vertex, pixel, &options).map_err(|error| Failure::Input(error.to_string()))?;
+    if arguments.reflect {
+        print_json(&reflect::reflection(&translation.reflection))?;
+        if arguments.output.is_none() {
+            return Ok(());
+        }
+    }
+    let Target::Other(language) = arguments.to else {
+        return write(arguments.output.as_deref(), translation.source.as_bytes());
+    };
+    let written = languages::write(&translation, language)
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    let several = written.len() > 1;
+    for shader in &written {
+        let path = match (&arguments.output, shader.stage) {
+            (Some(path), Some(stage)) if several => Some(path.with_extension(match stage {
+                ShaderKind::Vertex => "vert",
+                ShaderKind::Pixel => "frag",
+            })),
+            (None, _) if several => {
+                let message = format!(
+                    "{language} has one file a stage: -o NAME writes NAME.vert and NAME.frag"
+                );
+                return Err(Failure::Io(message));
+            }
+            (path, _) => path.clone(),
+        };
+        write(path.as_deref(), shader.code.bytes())?;
+    }
+    Ok(())
+}
+
+fn write(path: Option<&Path>, bytes: &[u8]) -> Outcome {
+    match (path, std::str::from_utf8(bytes)) {
+        (None, Ok(text)) => print(text),
+        (path, _) => files::write(path.unwrap_or(Path::new("-")), bytes),
+    }
+}
+
+/// Reads and lowers a listing.
+fn read(
+    path: &str,
+    dialect: Dialect,
+    sources: &mut SourceMap,
+) -> Result<(Program, Kernel), Failure> {
+    let bytes = files::read(path)?;
+    let file = sources
+        .add(files::name(path), bytes)
+        .map_err(|e| Failure::Input(e.to_string()))?;
+    let checked = listing::check(file, dialect);
+    if any_error(&checked.diagnostics) {
+        anstream::eprint!("{}", diagnostics::render(sources, &checked.diagnostics));
+    }
+    let Some(program) = checked.accepted() else {
+        let summary = diagnostics::summary(&checked.diagnostics).unwrap_or_default();
+        return Err(Failure::Input(format!("{}: {summary}", files::name(path))));
+    };
+    let kernel = kernel::lower(program, &kernel::Options::default())
+        .map_err(|e| Failure::Input(format!("{}: {e}", files::name(path))))?;
+    Ok((program.clone(), kernel))
+}
+
+fn options(arguments: &Arguments, pixel: Option<&Program>) -> Options {
+    let mut options = Options {
+        fog: arguments.fog.map(|table| Fog {
+            table,
+            distance: arguments.fog_distance,
+        }),
+        alpha_test: arguments.alpha_test,
+        ..Options::default()
+    };
+    // What these make is a direction, and nearly always it is a cube that they look it up in.
+    let directions = [
+        Opcode::TexM3x3Tex,
+        Opcode::TexM3x3Spec,
+        Opcode::TexM3x3VSpec,
+    ];
+    let cubes = (pixel.into_iter().flat_map(Program::instructions))
+        .filter(|instruction| directions.contains(&instruction.opcode))
+        .filter_map(|instruction| instruction.destination)
+        .map(|destination| (destination.register.index as usize, Some(TextureKind::Cube)));
+    for (stage, kind) in cubes.chain(arguments.textures.iter().copied()) {
+        if let Some(place) = options.stages.get_mut(stage) {
+            place.texture = kind;
+        }
+    }
+    options
+}
