@@ -58,11 +58,13 @@ impl fmt::Display for AdapterInfo {
 /// The adapters in the order in which one is chosen: real GPUs before software, then as the system lists them. OpenGL
 /// counts only where there is nothing else.
 fn ordered() -> Vec<(wgpu::Adapter, AdapterInfo)> {
-    let mut description = wgpu::InstanceDescriptor::new_without_display_handle();
-    // Checks by the driver's own layers are for those who write drivers, and print to the terminal.
-    description.flags = wgpu::InstanceFlags::empty();
-    let instance = wgpu::Instance::new(description);
-    let of = |backends| pollster::block_on(instance.enumerate_adapters(backends));
+    let of = |backends| {
+        let mut description = wgpu::InstanceDescriptor::new_without_display_handle();
+        description.backends = backends;
+        // Checks by the driver's own layers are for those who write drivers, and print to the terminal.
+        description.flags = wgpu::InstanceFlags::empty();
+        pollster::block_on(wgpu::Instance::new(description).enumerate_adapters(backends))
+    };
     let mut found = of(wgpu::Backends::PRIMARY);
     if found.is_empty() {
         // OpenGL can do less, lists the same cards again, and some of its drivers print to the terminal.

@@ -1,0 +1,1 @@
+//! Arithmetic alone, as 32-bit floats.
