@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::raster::Topology;
 
 /// A buffer that holds these bytes, or four zeros if there are none.
-fn filled(device: &Device, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+pub(super) fn filled(device: &Device, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: (bytes.len() as u64).next_multiple_of(4).max(4),

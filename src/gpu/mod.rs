@@ -19,12 +19,14 @@
 //! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
-//! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures.
+//! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
+//! `invocations` runs a pixel shader alone, for tests of arithmetic.
 
 mod buffers;
 mod device;
 mod differences;
 mod error;
+mod invocations;
 mod picture;
 mod pipeline;
 mod renderer;
@@ -36,6 +38,7 @@ mod vertex;
 pub use device::{AdapterInfo, Device, adapters};
 pub use differences::{Differences, WorstPixel};
 pub use error::GpuError;
+pub use invocations::{PixelInput, shade_pixels};
 pub use pipeline::bind_group_layouts;
 pub use renderer::Renderer;
 pub use state::{FixedState, fixed_state};

@@ -17,7 +17,9 @@ pub enum Stream {
 /// The vertex buffers of a pipeline: which attribute lies in which, and which registers read it.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct VertexLayout {
-    buffers: Vec<(Stream, Vec<wgpu::VertexAttribute>)>,
+    streams: Vec<Stream>,
+    /// Bytes from one element to the next, and what is read of it, by slot.
+    buffers: Vec<(u64, Vec<wgpu::VertexAttribute>)>,
     instanced: bool,
 }
 
@@ -25,7 +27,10 @@ impl VertexLayout {
     /// The layout for registers that a vertex shader reads, fed as a declaration says: one buffer an attribute.
     /// `instanced`: points are drawn as quads, one instance each.
     pub fn new(declaration: &Declaration, inputs: &[VertexInput], instanced: bool) -> Self {
-        let mut buffers: Vec<(Stream, Vec<wgpu::VertexAttribute>)> = Vec::new();
+        let mut layout = Self {
+            instanced,
+            ..Self::default()
+        };
         for input in inputs {
             let attribute = declaration.get(input.register as usize).copied().flatten();
             let stream = attribute.map_or(Stream::Default, Stream::Mesh);
@@ -38,17 +43,35 @@ impl VertexLayout {
                 offset: 0,
                 shader_location: input.register,
             };
-            match buffers.iter_mut().find(|(known, _)| *known == stream) {
-                Some((_, reads)) => reads.push(read),
-                None => buffers.push((stream, vec![read])),
+            match layout.streams.iter().position(|known| *known == stream) {
+                Some(slot) => layout.buffers[slot].1.push(read),
+                None => {
+                    layout.streams.push(stream);
+                    layout.buffers.push((stream.stride(), vec![read]));
+                }
             }
         }
-        Self { buffers, instanced }
+        layout
+    }
+
+    /// One buffer with an element an instance, four floats for each of these locations.
+    pub(super) fn instances(locations: &[u32]) -> Self {
+        let read = |(number, location): (u64, &u32)| wgpu::VertexAttribute {
+            format: wgpu::VertexFormat::Float32x4,
+            offset: 16 * number,
+            shader_location: *location,
+        };
+        let stride = 16 * locations.len() as u64;
+        Self {
+            streams: Vec::new(),
+            buffers: vec![(stride, (0..).zip(locations).map(read).collect())],
+            instanced: true,
+        }
     }
 
     /// What the vertex buffers hold, by slot.
     pub fn streams(&self) -> impl Iterator<Item = Stream> + '_ {
-        self.buffers.iter().map(|(stream, _)| *stream)
+        self.streams.iter().copied()
     }
 
     /// The layout as a pipeline wants it.
@@ -60,8 +83,8 @@ impl VertexLayout {
         };
         self.buffers
             .iter()
-            .map(|(stream, attributes)| wgpu::VertexBufferLayout {
-                array_stride: stream.stride(),
+            .map(|(array_stride, attributes)| wgpu::VertexBufferLayout {
+                array_stride: *array_stride,
                 step_mode,
                 attributes,
             })
