@@ -53,7 +53,7 @@ const COMPOUND: [&str; 12] = [
 const BOUND: f32 = 8.0 * 4.0 / (1 << 24) as f32;
 
 /// A listing of ps.1.4 around some instructions. There inputs go through registers: t0 to t2 become r3 to r5.
-fn read(body: &str, sources: &mut SourceMap) -> (Program, Kernel) {
+fn around(body: &str) -> String {
     let mut text = String::from("ps.1.4\ndef c2, 0.3, -0.7, 0.9, -0.1\n");
     for i in 0..3 {
         // Three components: the fourth of a coordinate set cannot be had in ps.1.4, it comes from a colour.
@@ -66,7 +66,11 @@ fn read(body: &str, sources: &mut SourceMap) -> (Program, Kernel) {
     }
     text.push_str(&body);
     text.push('\n');
-    let file = sources.add(body, text.clone().into_bytes());
+    text
+}
+
+fn read(text: &str, sources: &mut SourceMap) -> (Program, Kernel) {
+    let file = sources.add("listing", text.as_bytes().to_vec());
     let checked = listing::check(file.expect("the listing is short"), Dialect::default());
     let Some(program) = checked.accepted() else {
         panic!("{text}\n{:?}", checked.diagnostics);
@@ -149,7 +153,7 @@ fn each_pair(listings: &[&str], mut check: impl FnMut(&str, usize, f32, f32)) {
     let inputs = inputs();
     for body in listings {
         let mut sources = SourceMap::new();
-        let (program, kernel) = read(body, &mut sources);
+        let (program, kernel) = read(&around(body), &mut sources);
         let results = on_gpu(&device, (&program, &kernel), &sources, &inputs);
         assert_eq!(results.len(), inputs.len());
         for (number, (gpu, input)) in results.iter().zip(&inputs).enumerate() {
@@ -189,6 +193,8 @@ fn compound_expressions_are_within_their_roundings() {
     println!("{equal} of {all} equal, the others at most {worst:e} apart");
 }
 
+const TEXKILL: &str = "ps.1.4\ntexcrd r0.rgb, t1\ntexkill t0\nmov r0.a, v0.a\n";
+
 #[test]
 fn texkill_takes_the_same_pixels_out() {
     let mut seen = [0; 2];
@@ -197,7 +203,7 @@ fn texkill_takes_the_same_pixels_out() {
     };
     let inputs = inputs();
     let mut sources = SourceMap::new();
-    let (program, kernel) = read("texkill t0\nmov r0, t1", &mut sources);
+    let (program, kernel) = read(TEXKILL, &mut sources);
     let results = on_gpu(&device, (&program, &kernel), &sources, &inputs);
     for (gpu, input) in results.iter().zip(&inputs) {
         // The rule itself: a pixel is out if one of x, y, z is below 0.

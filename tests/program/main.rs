@@ -4,6 +4,7 @@
 mod check;
 mod eval;
 mod run;
+mod translate;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,92 @@
+//! `translate`, and what commands that need a GPU say about their arguments.
+
+use super::{folder, texcrd};
+
+const VERTEX: &str = "asm/stained_glass/stained_glass.vsh";
+const PIXEL: &str = "asm/stained_glass/stained_glass.psh";
+
+#[test]
+fn a_pair_becomes_one_module() {
+    let ran = texcrd(&["translate", VERTEX, PIXEL]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    for part in ["@vertex", "@fragment", "fn vs_main", "fn ps_main", "// "] {
+        assert!(ran.out.contains(part), "{part}\n{}", ran.out);
+    }
+}
+
+#[test]
+fn the_contract_names_kinds_of_textures() {
+    let ran = texcrd(&["translate", PIXEL, "--texture", "3=cube", "--reflect"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let contract: serde_json::Value = serde_json::from_str(&ran.out).expect("it is JSON");
+    assert_eq!(contract["pixel"]["version"], "ps.1.4");
+    assert_eq!(contract["vertex"], serde_json::Value::Null);
+    let bindings = contract["bindings"].as_array().expect("a list");
+    let dimension = |stage: u64| {
+        let of_stage = |b: &&serde_json::Value| b["kind"] == "texture" && b["stage"] == stage;
+        bindings
+            .iter()
+            .find(of_stage)
+            .map(|b| b["dimension"].clone())
+    };
+    // A cube of Direct3D 8 is six faces that do not know of each other.
+    assert_eq!(dimension(3), Some("2d-array".into()));
+    assert_eq!(dimension(2), Some("2d".into()));
+    assert_eq!(dimension(1), None);
+}
+
+#[test]
+fn glsl_has_a_file_a_stage() {
+    let refused = texcrd(&["translate", VERTEX, PIXEL, "--to", "glsl"]);
+    assert_eq!(refused.status, 2);
+    assert!(refused.err.contains("one file a stage"), "{}", refused.err);
+    let folder = folder("translate_glsl");
+    let out = folder.join("glass");
+    let ran = texcrd(&[
+        "translate",
+        VERTEX,
+        PIXEL,
+        "--to",
+        "glsl",
+        "-o",
+        &out.to_string_lossy(),
+    ]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    for extension in ["vert", "frag"] {
+        let text = std::fs::read_to_string(out.with_extension(extension));
+        assert!(text.expect("the file is there").starts_with("#version"));
+    }
+}
+
+#[test]
+fn what_does_not_fit_together_is_refused() {
+    for (arguments, status, message) in [
+        (
+            &["translate", PIXEL, PIXEL][..],
+            2,
+            "one is a vertex and one a pixel shader",
+        ),
+        (&["translate", PIXEL, "--to", "cg"], 2, "no language"),
+        (
+            &["translate", PIXEL, "--texture", "9=cube"],
+            2,
+            "stages 0 to 7",
+        ),
+        (
+            &["run", "x.toml", "-o", "x.png", "--adapter", "0"],
+            2,
+            "only with --on gpu",
+        ),
+        (
+            &[
+                "run", "x.toml", "-o", "x.png", "--on", "gpu", "--show", "r0",
+            ],
+            2,
+            "on the CPU",
+        ),
+    ] {
+        let ran = texcrd(arguments);
+        assert_eq!(ran.status, status, "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(message), "{arguments:?}: {}", ran.err);
+    }
+}
