@@ -2,6 +2,8 @@
 //!
 //! See `ARCHITECTURE.md` for the rooms and which may know of which.
 
+#[cfg(feature = "scene")]
+pub mod case;
 pub mod diagnostic;
 pub mod exec;
 pub mod isa;

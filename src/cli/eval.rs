@@ -272,7 +272,7 @@ fn numbers(value: [f32; 4], mask: WriteMask) -> String {
 }
 
 /// JSON has no infinities and no NaN; they are written as strings.
-fn json_number(number: f32) -> Value {
+pub(super) fn json_number(number: f32) -> Value {
     let text = number.to_string();
     // Through its text, so that the shortest form that reads back to the same 32 bits is printed.
     match text.parse::<f64>() {

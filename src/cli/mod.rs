@@ -9,6 +9,7 @@ mod eval;
 mod files;
 mod run;
 mod show;
+mod test;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use std::fmt;
@@ -35,6 +36,7 @@ enum Command {
     Check(check::Arguments),
     Eval(eval::Arguments),
     Run(run::Arguments),
+    Test(test::Arguments),
 }
 
 /// How results are written.
@@ -74,6 +76,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
     };
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;

@@ -31,9 +31,10 @@ use glam::Vec4;
 
 pub use assemble::{DrawError, Topology};
 pub use cover::{Fragment, cover};
+pub use merger::{LonePixel, Merged, merge_lone};
 pub use names::UnknownName;
 pub use pixel::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader};
-pub use programmable::{PixelProgram, RegisterPicture, View, shade_vertices};
+pub use programmable::{PixelProgram, RegisterPicture, View, shade_vertices, vertex_outputs};
 pub use state::{
     AlphaTest, BlendFactor, BlendOp, BlendState, ColorMask, Compare, CullMode, DepthState,
     FillMode, FogDistance, FogMode, FogState, PointState, RenderState, ShadeMode, StencilOp,
@@ -90,13 +91,13 @@ pub struct DrawCall<'a> {
 
 /// A value taken into 0 to 1; NaN is 0.
 #[inline]
-fn unit(value: f32) -> f32 {
+pub(crate) fn unit(value: f32) -> f32 {
     let value = if value > 0.0 { value } else { 0.0 };
     if value < 1.0 { value } else { 1.0 }
 }
 
 /// A fog factor taken into 0 to 1; NaN is 1, which is clear.
 #[inline]
-fn fog_unit(value: f32) -> f32 {
+pub(crate) fn fog_unit(value: f32) -> f32 {
     if value < 1.0 { unit(value) } else { 1.0 }
 }

@@ -1,25 +1,24 @@
 //! From the bytes of a scene file to a [`Scene`].
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use super::draw::{self, Draw, Known, Names};
 use super::error::{Problems, SceneError, rules};
 use super::files::Files;
 use super::resolve::Resolver;
-use super::section::{At, Node, ROOT, Section};
+use super::section::{At, Node, Section};
 use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
 use super::{LoadOptions, Scene, TextureEntry, TextureSource, mesh};
-use crate::diagnostic::SourceMap;
+use crate::diagnostic::{Diagnostic, SourceMap};
 use crate::raster;
 
 /// Most meshes, textures, targets or draws of a scene, each.
 pub const MAX_ENTRIES: usize = 1024;
 
 /// A text that TOML brackets nest deeper in than this is refused before it is parsed.
-const MAX_NESTING: usize = 64;
+pub(crate) const MAX_NESTING: usize = 64;
 
 impl Scene {
     /// Reads a scene and everything that it names.
@@ -34,44 +33,72 @@ impl Scene {
         resolver: &dyn Resolver,
         options: &LoadOptions,
     ) -> Result<Self, Box<SceneError>> {
-        let mut files = Files::new(resolver);
-        let mut problems = Problems::default();
-        let (mut sources, mut scene) = (SourceMap::new(), None);
-        match files.sources.add(name, bytes) {
-            Err(error) => {
-                // The name alone, so that the message has a place.
-                if let Ok(file) = sources.add(name, Vec::new()) {
-                    problems.error(&rules::LIMIT, file.span(), error.to_string());
+        let loaded = load(name, bytes, resolver, |text, files, problems| {
+            read(text, options, files, problems)
+        })?;
+        Ok(Self {
+            sources: loaded.sources,
+            warnings: loaded.warnings,
+            ..loaded.value
+        })
+    }
+}
+
+/// What was read from a file without an error.
+pub(crate) struct Loaded<T> {
+    pub(crate) value: T,
+    /// The file and the listings.
+    pub(crate) sources: SourceMap,
+    pub(crate) warnings: Vec<Diagnostic>,
+}
+
+/// Reads a file and whatever it names, and collects what is wrong with any of it.
+///
+/// # Errors
+/// [`SceneError`] with every problem, if there is an error among them or `read` gives nothing.
+pub(crate) fn load<T>(
+    name: &str,
+    bytes: &[u8],
+    resolver: &dyn Resolver,
+    read: impl FnOnce(&str, &mut Files<'_>, &mut Problems) -> Option<T>,
+) -> Result<Loaded<T>, Box<SceneError>> {
+    let mut files = Files::new(resolver);
+    let mut problems = Problems::default();
+    let (mut sources, mut value) = (SourceMap::new(), None);
+    match files.sources.add(name, bytes) {
+        Err(error) => {
+            // The name alone, so that the message has a place.
+            if let Ok(file) = sources.add(name, Vec::new()) {
+                problems.error(&rules::LIMIT, file.span(), error.to_string());
+            }
+        }
+        Ok(file) => {
+            let span = file.span();
+            problems = Problems::new(span.start);
+            value = match std::str::from_utf8(bytes) {
+                Ok(text) => read(text, &mut files, &mut problems),
+                Err(error) => {
+                    let at = error.valid_up_to();
+                    let place = problems.span(at..at + 1);
+                    problems.error(&rules::SYNTAX, place, "this is not UTF-8");
+                    None
                 }
-            }
-            Ok(file) => {
-                let span = file.span();
-                problems = Problems::new(span.start);
-                scene = match std::str::from_utf8(bytes) {
-                    Ok(text) => read(text, options, &mut files, &mut problems),
-                    Err(error) => {
-                        let at = error.valid_up_to();
-                        let place = problems.span(at..at + 1);
-                        problems.error(&rules::SYNTAX, place, "this is not UTF-8");
-                        None
-                    }
-                };
-                sources = files.sources;
-            }
+            };
+            sources = files.sources;
         }
-        let refused = problems.any_error();
-        let diagnostics = problems.into_sorted();
-        match scene {
-            Some(mut scene) if !refused => {
-                scene.sources = sources;
-                scene.warnings = diagnostics;
-                Ok(scene)
-            }
-            _ => Err(Box::new(SceneError {
-                sources,
-                diagnostics,
-            })),
-        }
+    }
+    let refused = problems.any_error();
+    let diagnostics = problems.into_sorted();
+    match value {
+        Some(value) if !refused => Ok(Loaded {
+            value,
+            sources,
+            warnings: diagnostics,
+        }),
+        _ => Err(Box::new(SceneError {
+            sources,
+            diagnostics,
+        })),
     }
 }
 
@@ -89,12 +116,8 @@ fn nesting(text: &str) -> usize {
     most
 }
 
-fn read(
-    text: &str,
-    options: &LoadOptions,
-    files: &mut Files<'_>,
-    problems: &mut Problems,
-) -> Option<Scene> {
+/// The tables of a TOML text; `None`, and the problems, if it is none.
+pub(crate) fn parse_toml<'t>(text: &'t str, problems: &mut Problems) -> Option<DeTable<'t>> {
     let whole = problems.span(0..0);
     if nesting(text) > MAX_NESTING {
         let message = format!("brackets nest more than {MAX_NESTING} deep");
@@ -106,10 +129,17 @@ fn read(
         let place = error.span().map_or(whole, |range| problems.span(range));
         problems.error(&rules::SYNTAX, place, error.message());
     }
-    if problems.any_error() {
-        return None;
-    }
-    let mut root = Section::new(ROOT, table.into_inner(), whole, problems);
+    (!problems.any_error()).then(|| table.into_inner())
+}
+
+fn read(
+    text: &str,
+    options: &LoadOptions,
+    files: &mut Files<'_>,
+    problems: &mut Problems,
+) -> Option<Scene> {
+    let table = parse_toml(text, problems)?;
+    let mut root = Section::outermost("the scene file", table, problems);
     let size = size(&mut root, problems);
     let clear = root.array_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
     let time = root.or("time", 0.0, problems);
@@ -311,24 +341,8 @@ fn draw_entries<'i>(
         root.missing("at least one `[[draw]]`", problems);
         return (names, sections);
     };
-    if !matches!(node.value.get_ref(), DeValue::Array(_)) {
-        node.refuse("a list of tables, `[[draw]]`", problems);
-        return (names, sections);
-    }
-    let Node {
-        key,
-        key_span,
-        value,
-    } = node;
-    let DeValue::Array(list) = value.into_inner() else {
-        return (names, sections);
-    };
-    for (value, number) in list.into_iter().zip(1..) {
-        let node = Node {
-            key: key.clone(),
-            key_span: first_line(&value, key_span, problems),
-            value,
-        };
+    let list = node.into_list("a list of tables, `[[draw]]`", problems);
+    for (node, number) in list.into_iter().zip(1..) {
         if too_many(sections.len(), "draw", &node, problems) {
             break;
         }
@@ -346,17 +360,4 @@ fn draw_entries<'i>(
         sections.push((name, section));
     }
     (names, sections)
-}
-
-/// The place of an entry of a list of tables: its header, without the rest of its lines.
-fn first_line(
-    value: &Spanned<DeValue<'_>>,
-    key_span: crate::diagnostic::Span,
-    problems: &Problems,
-) -> crate::diagnostic::Span {
-    let range = value.span();
-    if range.is_empty() {
-        return key_span;
-    }
-    problems.span(range)
 }
