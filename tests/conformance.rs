@@ -1,5 +1,6 @@
 //! The suite of shader unit tests in `tests/conformance`: all of it passes, and it leaves no instruction out.
 #![cfg(feature = "scene")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -24,6 +24,7 @@ Examples:
   texcrd run asm/stained_glass/scene.toml -o stained_glass.png
   texcrd check --stats shader.psh
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
+  texcrd test tests/conformance
 
 `-` is standard input. Exit status: 0 done, 1 the input is wrong, 2 usage or I/O.")]
 struct Arguments {

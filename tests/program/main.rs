@@ -3,6 +3,7 @@
 mod check;
 mod eval;
 mod run;
+mod test;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
