@@ -1,6 +1,10 @@
-//! Runs, translates and step-debugs the shader assembly of Direct3D 8.
+//! Runs the shader assembly of Direct3D 8: `vs.1.0`, `vs.1.1` and `ps.1.0` to `ps.1.4`.
 //!
-//! See `ARCHITECTURE.md` for the rooms and which may know of which.
+//! A listing goes through [`listing::check`] to a [`program::Program`], through [`kernel::lower`] to a
+//! [`kernel::Kernel`], and runs in an [`exec::Machine`]. [`scene::Scene`] puts listings, meshes and textures together
+//! and renders them through [`raster`].
+//!
+//! `ARCHITECTURE.md` in the repository says which room knows of which.
 
 #[cfg(feature = "scene")]
 pub mod case;
@@ -19,3 +23,9 @@ pub mod semantics;
 pub mod syntax;
 pub mod texture;
 pub mod validate;
+pub mod wgsl;
+
+/// The example of the first page, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct FirstPage;

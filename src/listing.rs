@@ -30,7 +30,8 @@ impl Checked {
 /// not told again.
 pub fn check(file: &SourceFile, dialect: Dialect) -> Checked {
     let parsed = syntax::parse(file);
-    let mut diagnostics = parsed.diagnostics;
+    let mut diagnostics = parsed.diagnostics.clone();
+    diagnostics.extend(syntax::unread(file, &parsed));
     if let Some(program) = &parsed.program {
         let unread: Vec<_> = (parsed.damaged.iter())
             .map(|damage| (damage.span, damage.destination))

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::scene::error::{Problems, rules};
-use crate::scene::load::MAX_NESTING;
+use crate::scene::include::MAX_NESTING;
 
 /// The object that a JSON text is; `None`, and the problem, if it is none.
 pub(super) fn parse<'t>(text: &'t str, problems: &mut Problems) -> Option<DeTable<'t>> {

@@ -13,7 +13,8 @@ use crate::raster::{RenderState, Vertex};
 use crate::scene::draw::numbered;
 use crate::scene::error::{Problems, advice, rules};
 use crate::scene::files::Files;
-use crate::scene::load::{load, parse_toml};
+use crate::scene::include::{parse, utf8};
+use crate::scene::load::load;
 use crate::scene::section::{At, Node, Section};
 use crate::scene::shader::{self, Keys, Named, lowered};
 use crate::scene::state::{bump, sampler, state};
@@ -58,7 +59,8 @@ impl super::Case {
         resolver: &dyn Resolver,
         options: &LoadOptions,
     ) -> Result<Self, Box<super::CaseError>> {
-        let loaded = load(name, bytes, resolver, |text, files, problems| {
+        let loaded = load(name, bytes, resolver, |files, problems| {
+            let text = utf8(bytes, 0, problems)?;
             let is_json = text.trim_start().starts_with('{')
                 || name
                     .rsplit('.')
@@ -67,7 +69,7 @@ impl super::Case {
             let table = if is_json {
                 json::parse(text, problems)?
             } else {
-                parse_toml(text, problems)?
+                parse(bytes, 0, problems)?
             };
             let root = Section::outermost(name, table, problems);
             case(root, options.dialect, files, problems)

@@ -5,9 +5,9 @@ use crate::exec::{Environment, Machine, Stage, Trace, bind_constants};
 use crate::isa::register::{OFOG, OPTS};
 use crate::isa::{RegisterFile, ShaderKind};
 use crate::kernel::Slot;
-use crate::raster::{self, LonePixel, Vertex, fog_unit, merge_lone, unit, vertex_outputs};
+use crate::raster::{self, LonePixel, Vertex, fog_unit, merge_lone, vertex_outputs};
 use crate::scene::Shader;
-use crate::semantics;
+use crate::semantics::saturate;
 
 /// What an invocation gave.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,9 +87,8 @@ pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
             }),
         };
         let colors = [outputs.diffuse, outputs.specular].into_iter().enumerate();
-        let colors = colors.filter_map(|(i, color)| {
-            Some((Slot::input(i)?, color.to_array().map(semantics::saturate)))
-        });
+        let colors =
+            colors.filter_map(|(i, color)| Some((Slot::input(i)?, color.to_array().map(saturate))));
         let sets = outputs.texcoords.iter().enumerate();
         let sets = sets.filter_map(|(i, set)| Some((Slot::texcoord(i)?, set.to_array())));
         record(shader, &environment, colors.chain(sets))
@@ -138,7 +137,7 @@ fn record<'a>(
 impl Run<'_> {
     /// Takes out what the invocation speaks of.
     fn collect(&mut self, invocation: &Invocation, outputs: &Vertex) {
-        let z = unit(outputs.position.z / outputs.position.w);
+        let z = saturate(outputs.position.z / outputs.position.w);
         let replaced_z = self.pixel.as_ref().and_then(|run| {
             let writes = run.shader.kernel.writes_depth();
             writes.then(|| run.machine.lane(Slot::DEPTH, 0)[0])
@@ -192,7 +191,7 @@ impl Run<'_> {
                 let size = outputs.point_size.unwrap_or(self.case.state.point.size);
                 [size, 0.0, 0.0, 0.0]
             }
-            (RegisterFile::AttrOut, _) => run.machine.lane(slot, 0).map(unit),
+            (RegisterFile::AttrOut, _) => run.machine.lane(slot, 0).map(saturate),
             _ => run.machine.lane(slot, 0),
         }
     }

@@ -87,9 +87,8 @@ fn fix(path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
         repaired += count;
         bytes = fixed;
     }
-    if path == "-" {
-        files::write(Path::new(path), &bytes)?;
-    } else if bytes != original {
+    // What came from standard input goes to standard output, repaired or not.
+    if path == "-" || bytes != original {
         files::write(Path::new(path), &bytes)?;
     }
     if repaired > 0 {
@@ -109,7 +108,10 @@ fn report(arguments: &Arguments, sources: &SourceMap, found: &[Diagnostic]) -> O
     let mut text = diagnostics::render(sources, found);
     let name = sources.files().last().map_or("", |f| f.name());
     let summary = diagnostics::summary(found);
-    text.push_str(&format!("{name}: {}\n", summary.as_deref().unwrap_or("no complaints")));
+    text.push_str(&format!(
+        "{name}: {}\n",
+        summary.as_deref().unwrap_or("no complaints")
+    ));
     // With --fix the repaired text of standard input goes to standard output.
     if arguments.fix && name == files::name("-") {
         anstream::eprint!("{text}");

@@ -82,7 +82,8 @@ impl Window {
         let last = (end.min(start + CONTEXT) + CONTEXT).min(line.len());
         let readable = |range: std::ops::Range<usize>| {
             let bytes = line.get(range).unwrap_or_default();
-            String::from_utf8_lossy(bytes).replace(|c: char| c.is_control() && c != '\t', "\u{fffd}")
+            String::from_utf8_lossy(bytes)
+                .replace(|c: char| c.is_control() && c != '\t', "\u{fffd}")
         };
         let before = readable(first..start);
         let marked = readable(start..end.min(last));
@@ -115,7 +116,12 @@ pub(super) fn to_json(sources: &SourceMap, diagnostic: &Diagnostic) -> serde_jso
 
 /// `2 errors, 1 warning`; `None` if there is nothing to count.
 pub(super) fn summary(diagnostics: &[Diagnostic]) -> Option<String> {
-    let count = |severity| diagnostics.iter().filter(|d| d.severity == severity).count();
+    let count = |severity| {
+        diagnostics
+            .iter()
+            .filter(|d| d.severity == severity)
+            .count()
+    };
     let plural = |n: usize, what: &str| match n {
         0 => None,
         1 => Some(format!("1 {what}")),

@@ -25,7 +25,11 @@ pub(super) struct Arguments {
     file: String,
     /// Sets an input or a constant: v#, t# (texture coordinates) or c#. One number fills all four components; of
     /// two or three the rest is 0, 0, 1 as for vertex data.
-    #[arg(long = "set", value_name = "REG=X[,Y[,Z[,W]]]", allow_hyphen_values = true)]
+    #[arg(
+        long = "set",
+        value_name = "REG=X[,Y[,Z[,W]]]",
+        allow_hyphen_values = true
+    )]
     set: Vec<String>,
     /// Print what every instruction wrote.
     #[arg(long)]
@@ -93,11 +97,15 @@ fn load(
         let (name, numbers) = setting
             .split_once('=')
             .ok_or_else(|| wrong("write it as v0=1,2,3,4"))?;
-        let value = value(numbers).ok_or_else(|| wrong("one to four numbers stand behind the `=`"))?;
-        let (file, index) = register(name.trim())
-            .ok_or_else(|| wrong("v#, t# and c# can be set"))?;
+        let value =
+            value(numbers).ok_or_else(|| wrong("one to four numbers stand behind the `=`"))?;
+        let (file, index) =
+            register(name.trim()).ok_or_else(|| wrong("v#, t# and c# can be set"))?;
         if index >= file.count(version) {
-            return Err(wrong(&format!("{version} has no {}", file.register_name(index))));
+            return Err(wrong(&format!(
+                "{version} has no {}",
+                file.register_name(index)
+            )));
         }
         let slot = match file {
             RegisterFile::Const => {
@@ -109,7 +117,11 @@ fn load(
         };
         // Interpolated colours reach a pixel shader clamped.
         let clamped = file == RegisterFile::Input && version.kind() == ShaderKind::Pixel;
-        let value = if clamped { value.map(texcrd::semantics::saturate) } else { value };
+        let value = if clamped {
+            value.map(texcrd::semantics::saturate)
+        } else {
+            value
+        };
         if let Some(slot) = slot {
             machine.load(slot, value);
         }
@@ -118,7 +130,11 @@ fn load(
 }
 
 fn register(name: &str) -> Option<(RegisterFile, u32)> {
-    let files = [RegisterFile::Input, RegisterFile::Texture, RegisterFile::Const];
+    let files = [
+        RegisterFile::Input,
+        RegisterFile::Texture,
+        RegisterFile::Const,
+    ];
     files.into_iter().find_map(|file| {
         let (prefix, index) = name.split_at_checked(file.row().prefix.len())?;
         let fits = prefix.eq_ignore_ascii_case(file.row().prefix);
@@ -177,24 +193,35 @@ impl Run<'_> {
 
     /// Instruction by instruction, those included that wrote nothing.
     fn steps(&self) -> impl Iterator<Item = Written<'_>> {
-        self.program.instructions().enumerate().map(|(number, instruction)| {
-            let mut registers: Vec<(Slot, WriteMask, [f32; 4])> = Vec::new();
-            for change in self.trace.changes.iter().filter(|c| c.instruction == number) {
-                match registers.iter_mut().find(|(slot, ..)| *slot == change.slot) {
-                    Some((_, mask, value)) => {
-                        *mask = mask.or(change.mask);
-                        *value = change.after;
+        self.program
+            .instructions()
+            .enumerate()
+            .map(|(number, instruction)| {
+                let mut registers: Vec<(Slot, WriteMask, [f32; 4])> = Vec::new();
+                for change in self
+                    .trace
+                    .changes
+                    .iter()
+                    .filter(|c| c.instruction == number)
+                {
+                    match registers.iter_mut().find(|(slot, ..)| *slot == change.slot) {
+                        Some((_, mask, value)) => {
+                            *mask = mask.or(change.mask);
+                            *value = change.after;
+                        }
+                        None => registers.push((change.slot, change.mask, change.after)),
                     }
-                    None => registers.push((change.slot, change.mask, change.after)),
                 }
-            }
-            let line = self.sources.locate(instruction.span).map_or(0, |at| at.line);
-            Written {
-                instruction,
-                line,
-                registers,
-            }
-        })
+                let line = self
+                    .sources
+                    .locate(instruction.span)
+                    .map_or(0, |at| at.line);
+                Written {
+                    instruction,
+                    line,
+                    registers,
+                }
+            })
     }
 
     /// The text of an instruction on one line.
@@ -224,7 +251,11 @@ impl Run<'_> {
         if let Some(depth) = self.depth() {
             out.push_str(&format!("depth = {depth}\n"));
         }
-        if let Some(instruction) = self.trace.killed_by.and_then(|i| self.program.instructions().nth(i)) {
+        if let Some(instruction) = self
+            .trace
+            .killed_by
+            .and_then(|i| self.program.instructions().nth(i))
+        {
             let text = self.instruction_text(instruction);
             out.push_str(&format!("killed by {text}\n"));
         }

@@ -2,10 +2,11 @@
 
 use super::show::Show;
 use super::{Failure, Outcome, diagnostics, dialect, files};
-use image::ImageFormat;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{Cursor, IsTerminal};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use texcrd::diagnostic::{Diagnostic, SourceFile};
 use texcrd::policy::Dialect;
 use texcrd::raster::RegisterPicture;
 use texcrd::scene::{DirectoryResolver, LoadOptions, PreparedDraw, RenderOptions, Scene};
@@ -44,7 +45,13 @@ pub(super) struct Arguments {
     #[arg(long, requires = "show")]
     abs: bool,
     /// Multiply what is shown.
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_hyphen_values = true, requires = "show")]
+    #[arg(
+        long,
+        value_name = "FACTOR",
+        default_value_t = 1.0,
+        allow_hyphen_values = true,
+        requires = "show"
+    )]
     scale: f32,
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
@@ -82,32 +89,58 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         .map_err(|e| Failure::Input(format!("{}: {e}", arguments.scene)))?;
     bar.finish_and_clear();
 
-    let picture = target.to_image();
-    let mut png = Cursor::new(Vec::new());
-    picture
-        .write_to(&mut png, ImageFormat::Png)
+    let mut png = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
+    (target.to_image().write_with_encoder(encoder))
         .map_err(|e| Failure::Input(format!("the picture cannot be written as PNG: {e}")))?;
-    files::write(&arguments.output, png.get_ref())
+    files::write(&arguments.output, &png)
 }
 
 /// Reads the scene and says what is wrong with it.
 fn load(arguments: &Arguments) -> Result<Scene, Failure> {
     let bytes = files::read(&arguments.scene)?;
-    let folder = Path::new(&arguments.scene).parent().unwrap_or(Path::new(""));
+    let folder = Path::new(&arguments.scene)
+        .parent()
+        .unwrap_or(Path::new(""));
     let resolver = DirectoryResolver::new(folder);
     let options = LoadOptions {
         dialect: arguments.dialect,
     };
     match Scene::load(files::name(&arguments.scene), &bytes, &resolver, &options) {
         Ok(scene) => {
-            let warnings = diagnostics::render(scene.sources(), scene.warnings());
-            anstream::eprint!("{warnings}");
+            warn(&scene);
             Ok(scene)
         }
         Err(error) => {
-            anstream::eprint!("{}", diagnostics::render(&error.sources, &error.diagnostics));
+            anstream::eprint!(
+                "{}",
+                diagnostics::render(&error.sources, &error.diagnostics)
+            );
             let summary = diagnostics::summary(&error.diagnostics).unwrap_or_default();
             Err(Failure::Input(format!("{}: {summary}", arguments.scene)))
+        }
+    }
+}
+
+/// Warnings of the scene file in full; those of its listings are counted: whoever draws a picture is not about to
+/// change a listing, and `check` tells them.
+fn warn(scene: &Scene) {
+    let file = |warning: &Diagnostic| {
+        scene
+            .sources()
+            .file_of(warning.span.start)
+            .map(SourceFile::name)
+    };
+    let is_listing = |warning: &&Diagnostic| !warning.rule.id.starts_with('F');
+    let (listings, own): (Vec<_>, Vec<_>) = scene.warnings().iter().partition(is_listing);
+    let own: Vec<Diagnostic> = own.into_iter().cloned().collect();
+    anstream::eprint!("{}", diagnostics::render(scene.sources(), &own));
+    for of_file in listings.chunk_by(|a, b| file(a) == file(b)) {
+        let of_file: Vec<Diagnostic> = of_file.iter().map(|d| (*d).clone()).collect();
+        if let (Some(first), Some(summary)) = (of_file.first(), diagnostics::summary(&of_file)) {
+            let name = file(first).unwrap_or_default();
+            anstream::eprintln!("{name}: {summary} (`texcrd check {name}` shows them)");
         }
     }
 }
@@ -138,7 +171,10 @@ fn register(
         None => usize::MAX,
         Some(line) => {
             let of = |span| scene.sources().locate(span).map_or(0, |at| at.line);
-            program.instructions().filter(|i| of(i.span) <= line).count()
+            program
+                .instructions()
+                .filter(|i| of(i.span) <= line)
+                .count()
         }
     };
     Ok(texcrd::scene::Show {

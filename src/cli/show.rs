@@ -21,9 +21,8 @@ impl FromStr for Show {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || {
-            format!("`{text}` is no register at a line: write r2@12, r0.a, t5, v0 or oT5")
-        };
+        let wrong =
+            || format!("`{text}` is no register at a line: write r2@12, r0.a, t5, v0 or oT5");
         let (register, line) = match text.split_once('@') {
             Some((register, line)) => (register, Some(line.parse().map_err(|_| wrong())?)),
             None => (text, None),
@@ -105,7 +104,9 @@ mod tests {
 
     #[test]
     fn everything_else_is_refused() {
-        for text in ["", "r", "x0", "r2@", "r2@x", "r0.q", "r0.xy", "c0", "oPos", "oD2.x.y", "é0"] {
+        for text in [
+            "", "r", "x0", "r2@", "r2@x", "r0.q", "r0.xy", "c0", "oPos", "oD2.x.y", "é0",
+        ] {
             let parsed = text.parse::<Show>();
             assert!(parsed.is_err(), "{text}: {parsed:?}");
         }

@@ -12,7 +12,13 @@ fn places() -> Texture {
     let texels: Vec<_> = (0..64)
         .map(|i| [(i % 8) as f32, (i / 8) as f32, 0.0, 1.0])
         .collect();
-    Texture::from_texels(TextureKind::Texture2D, Format::Rgba32F, [8, 8, 1], &[texels]).unwrap()
+    Texture::from_texels(
+        TextureKind::Texture2D,
+        Format::Rgba32F,
+        [8, 8, 1],
+        &[texels],
+    )
+    .unwrap()
 }
 
 /// A cube map whose faces hold their number in red.
@@ -24,7 +30,13 @@ fn faces() -> Texture {
 /// A texture of one colour.
 fn colour(texel: [f32; 4]) -> Texture {
     let texels = vec![texel];
-    Texture::from_texels(TextureKind::Texture2D, Format::Rgba32F, [1, 1, 1], &[texels]).unwrap()
+    Texture::from_texels(
+        TextureKind::Texture2D,
+        Format::Rgba32F,
+        [1, 1, 1],
+        &[texels],
+    )
+    .unwrap()
 }
 
 struct Bench<'a> {
@@ -152,7 +164,8 @@ fn texbem_moves_the_coordinates() {
     // bem: r0 is 0.854 = 0.5 + 15/127 + 30/127.
     let mut bench = Bench::new(&[&bump], &at);
     bench.environment.stages[1].bump.matrix = [-1.0, 0.0, 2.0, 0.0];
-    let r0 = bench.r0("ps.1.4\ntexld r0, t0\ntexcrd r1.rgb, t1\nbem r1.rg, r1, r0\nmov r0.rgb, r1\n");
+    let r0 =
+        bench.r0("ps.1.4\ntexld r0, t0\ntexcrd r1.rgb, t1\nbem r1.rg, r1, r0\nmov r0.rgb, r1\n");
     assert!((r0[0] - 0.854_330_7).abs() < 1e-6 && r0[1] == 0.5, "{r0:?}");
 }
 
@@ -189,12 +202,12 @@ fn matrix_instructions() {
     let r0 = Bench::new(&[&key, &map, &map], &rows).r0(listing);
     assert_eq!(r0[..2], [1.0, 4.0]);
     // (0.125, 0.5, 0.375): y is the largest, +Y is face 2.
-    let listing = "ps.1.1\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3tex t3, t0\nmov r0, t3\n";
+    let listing =
+        "ps.1.1\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3tex t3, t0\nmov r0, t3\n";
     let r0 = Bench::new(&[&key, &map, &map, &cube], &rows).r0(listing);
     assert_eq!(r0[0], 2.0);
     // _bx2 makes it (−0.5, 0, 0.5): the rows give (−0.25, 0, 0.25); z wins the tie, +Z is face 4.
-    let listing =
-        "ps.1.1\ntex t0\ntexm3x3pad t1, t0_bx2\ntexm3x3pad t2, t0_bx2\ntexm3x3tex t3, t0_bx2\nmov r0, t3\n";
+    let listing = "ps.1.1\ntex t0\ntexm3x3pad t1, t0_bx2\ntexm3x3pad t2, t0_bx2\ntexm3x3tex t3, t0_bx2\nmov r0, t3\n";
     let r0 = Bench::new(&[&key, &map, &map, &cube], &rows).r0(listing);
     assert_eq!(r0[0], 4.0);
 }
@@ -208,9 +221,13 @@ fn matrix_results_and_dots() {
         [0.0, 0.0, 4.0, 0.0],
         [-2.0, 0.0, 0.0, 0.0],
     ];
-    let listing = "ps.1.2\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3 t3, t0\nmov r0, t3\n";
+    let listing =
+        "ps.1.2\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3 t3, t0\nmov r0, t3\n";
     // 0.25 + 1, 3, −0.5
-    assert_eq!(Bench::new(&[&key], &rows).r0(listing), [1.25, 3.0, -0.5, 1.0]);
+    assert_eq!(
+        Bench::new(&[&key], &rows).r0(listing),
+        [1.25, 3.0, -0.5, 1.0]
+    );
     let listing = "ps.1.2\ntex t0\ntexdp3 t1, t0\nmov r0, t1\n";
     assert_eq!(Bench::new(&[&key], &rows).r0(listing), [1.25; 4]);
     // The row of the texture at 1.25, which wraps to 0.25: texel (2, 0).
@@ -310,7 +327,11 @@ fn macros_and_pairs_read_before_they_write() {
     let trace = Trace::record(&mut machine, &kernel, &environment, 0);
     assert_eq!(machine.lane(Slot::POSITION, 0), [2.0, 3.0, 4.0, 1.0]);
     // The trace tells every row as it is written, with the register before and after.
-    let rows: Vec<_> = trace.changes.iter().filter(|c| c.instruction == 1).collect();
+    let rows: Vec<_> = trace
+        .changes
+        .iter()
+        .filter(|c| c.instruction == 1)
+        .collect();
     assert_eq!(rows.len(), 4);
     assert_eq!(rows[0].before, [1.0, 2.0, 3.0, 4.0]);
     assert_eq!(rows[0].after, [2.0, 2.0, 3.0, 4.0]);
@@ -320,7 +341,8 @@ fn macros_and_pairs_read_before_they_write() {
 /// What is defined in a shader is loaded when it is set; what is set after that replaces it.
 #[test]
 fn set_constants_replace_definitions() {
-    let listing = "ps.1.1\ndef c0, 0.5, 0.5, 0.5, 0.5\ndef c1, 0.25, 0.25, 0.25, 0.25\nadd r0, c0, c1\n";
+    let listing =
+        "ps.1.1\ndef c0, 0.5, 0.5, 0.5, 0.5\ndef c1, 0.25, 0.25, 0.25, 0.25\nadd r0, c0, c1\n";
     let machine = Bench::new(&[], &[]).run(listing, &[(0, [1.0; 4])]);
     assert_eq!(machine.lane(Slot::R0, 0), [1.25; 4]);
 }

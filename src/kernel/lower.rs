@@ -3,8 +3,8 @@
 use super::texture_ops;
 use super::{Kernel, LowerError, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::isa::{
-    Class, FileSet, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind, SourceModifier,
-    Swizzle, Version, WriteMask,
+    Class, FileSet, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind,
+    SourceModifier, Swizzle, Version, WriteMask,
 };
 use crate::program::{Destination, Instruction, Program, Register, Source};
 

@@ -12,7 +12,7 @@ use crate::program::Register;
 pub struct Slot(u8);
 
 /// How many slots there are.
-pub const SLOT_COUNT: usize = 59;
+pub const SLOT_COUNT: usize = AT as usize + 2;
 
 const V: u8 = 0;
 const R: u8 = V + 16;

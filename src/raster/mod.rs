@@ -29,6 +29,9 @@ mod tiles;
 
 use glam::Vec4;
 
+// A value taken into 0 to 1; NaN is 0.
+use crate::semantics::saturate as unit;
+
 pub use assemble::{DrawError, Topology};
 pub use cover::{Fragment, cover};
 pub use merger::{LonePixel, Merged, merge_lone};
@@ -87,13 +90,6 @@ pub struct DrawCall<'a> {
     pub vertices: &'a [Vertex],
     /// Which vertices, in which order; `None`: all, as they come.
     pub indices: Option<&'a [u32]>,
-}
-
-/// A value taken into 0 to 1; NaN is 0.
-#[inline]
-pub(crate) fn unit(value: f32) -> f32 {
-    let value = if value > 0.0 { value } else { 0.0 };
-    if value < 1.0 { value } else { 1.0 }
 }
 
 /// A fog factor taken into 0 to 1; NaN is 1, which is clear.

@@ -169,6 +169,10 @@ impl PixelShader for PixelProgram<'_> {
 
     fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {
         MACHINE.with_borrow_mut(|machine| {
+            if let Some(picture) = &self.picture {
+                // A register that the shader never touches is shown as zero, not as the last batch left it.
+                machine.load(picture.slot, [0.0; 4]);
+            }
             for (i, slot) in self.texcoords() {
                 *machine.register_mut(slot) = batch.texcoords[i];
             }

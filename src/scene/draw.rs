@@ -25,7 +25,7 @@ use crate::texture::Sampler;
 /// Which attribute of the mesh feeds each input register `v0` to `v15`; one that nothing feeds reads (0, 0, 0, 1).
 pub type Declaration = [Option<Attribute>; 16];
 
-/// The declaration of the article *Rendering "stained glass"*: what feeds the registers when nothing else is said.
+/// The declaration of the article that `asm/stained_glass` comes from: what feeds the registers when nothing else is said.
 pub(super) const DEFAULT_DECLARATION: [(usize, Attribute); 6] = [
     (0, Attribute::Position),
     (3, Attribute::Normal),
@@ -79,7 +79,7 @@ pub(super) fn find(
     problems: &mut Problems,
 ) -> Option<usize> {
     let found = names.get(&name.value).copied();
-    if found.is_none() {
+    if found.is_none() && !problems.full() {
         let message = format!("there is no {what} `{}`", name.value);
         let help = advice(&name.value, names.keys().map(String::as_str));
         problems.error_with(&rules::NAME, name.span, message, help);

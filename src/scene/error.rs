@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::diagnostic::{Diagnostic, Rule, Severity, SourceMap, Span, any_error};
+use crate::diagnostic::{Diagnostic, Rule, Severity, SourceMap, Span};
 
 /// The rules of scene files and shader tests.
 pub mod rules {
@@ -112,35 +112,52 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
+/// After so many errors no more are told.
+const MOST_ERRORS: usize = 100;
+
+/// Longer messages are cut off: a name in them may be as long as the file.
+const MOST_LETTERS: usize = 1000;
+
 /// Collects problems while a scene is read.
 #[derive(Debug, Default)]
 pub(crate) struct Problems {
-    /// Where the scene file begins in the source map.
-    base: u32,
-    pub(crate) list: Vec<Diagnostic>,
+    list: Vec<Diagnostic>,
+    errors: usize,
 }
 
 impl Problems {
-    pub(crate) fn new(base: u32) -> Self {
-        Self {
-            base,
-            list: Vec::new(),
-        }
-    }
-
-    /// A range of bytes of the scene file as a span.
+    /// The range of a value of a scene file as a span: [`super::include::parse`] has made it one of the source map.
     pub(crate) fn span(&self, range: Range<usize>) -> Span {
         // Source maps hold less than 4 GiB, so that no offset in them is larger.
-        let at = |offset: usize| self.base.saturating_add(offset as u32);
-        Span::new(at(range.start), at(range.end))
+        Span::new(range.start as u32, range.end as u32)
+    }
+
+    /// Whether there are so many errors that looking for more helps nobody.
+    pub(crate) fn full(&self) -> bool {
+        self.errors >= MOST_ERRORS
+    }
+
+    /// Adds a problem, unless there are too many.
+    pub(crate) fn push(&mut self, mut diagnostic: Diagnostic) {
+        if self.full() {
+            return;
+        }
+        self.errors += usize::from(diagnostic.severity == Severity::Error);
+        for text in std::iter::once(&mut diagnostic.message).chain(&mut diagnostic.help) {
+            if let Some((end, _)) = text.char_indices().nth(MOST_LETTERS) {
+                text.truncate(end);
+                text.push('…');
+            }
+        }
+        self.list.push(diagnostic);
     }
 
     pub(crate) fn error(&mut self, rule: &'static Rule, span: Span, message: impl Into<String>) {
-        self.list.push(Diagnostic::error(rule, span, message));
+        self.push(Diagnostic::error(rule, span, message));
     }
 
     pub(crate) fn warning(&mut self, rule: &'static Rule, span: Span, message: impl Into<String>) {
-        self.list.push(Diagnostic::warning(rule, span, message));
+        self.push(Diagnostic::warning(rule, span, message));
     }
 
     /// An error with advice, if there is any.
@@ -153,11 +170,11 @@ impl Problems {
     ) {
         let mut diagnostic = Diagnostic::error(rule, span, message);
         diagnostic.help = help;
-        self.list.push(diagnostic);
+        self.push(diagnostic);
     }
 
     pub(crate) fn any_error(&self) -> bool {
-        any_error(&self.list)
+        self.errors > 0
     }
 
     /// The problems in the order of their places, errors before warnings at the same place.
@@ -176,11 +193,15 @@ pub(crate) fn nearest<'a>(
     let allowed = (given.chars().count() / 3).max(1);
     known
         .into_iter()
+        .filter(|name| name.len().abs_diff(given.len()) <= 4 * allowed)
         .map(|name| (edits(given, name), name))
         .filter(|(distance, _)| *distance <= allowed)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
+
+/// A list of more names than this helps nobody.
+const MOST_NAMES: usize = 40;
 
 /// `did you mean …?`, or else the list of what there is.
 pub(crate) fn advice<'a>(
@@ -190,8 +211,13 @@ pub(crate) fn advice<'a>(
     if let Some(name) = nearest(given, known.clone()) {
         return Some(format!("did you mean `{name}`?"));
     }
-    let names: Vec<String> = known.into_iter().map(|name| format!("`{name}`")).collect();
-    (!names.is_empty()).then(|| format!("there are {}", names.join(", ")))
+    let names: Vec<String> = known
+        .into_iter()
+        .take(MOST_NAMES + 1)
+        .map(|name| format!("`{name}`"))
+        .collect();
+    let readable = (1..=MOST_NAMES).contains(&names.len());
+    readable.then(|| format!("there are {}", names.join(", ")))
 }
 
 /// What was probably meant, for a message of `serde` about a name that it does not know: it gives the name and then the

@@ -1,7 +1,5 @@
 //! From the bytes of a scene file to a [`Scene`].
 
-use toml::de::DeTable;
-
 use super::draw::{self, Draw, Known, Names};
 use super::error::{Problems, SceneError, rules};
 use super::files::Files;
@@ -10,15 +8,15 @@ use super::section::{At, Node, Section};
 use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
-use super::{LoadOptions, Scene, TextureEntry, TextureSource, mesh};
-use crate::diagnostic::{Diagnostic, SourceMap};
+use super::{LoadOptions, Scene, TextureEntry, TextureSource, include, mesh};
+use crate::diagnostic::{Diagnostic, SourceMap, Span};
 use crate::raster;
 
 /// Most meshes, textures, targets or draws of a scene, each.
 pub const MAX_ENTRIES: usize = 1024;
 
-/// A text that TOML brackets nest deeper in than this is refused before it is parsed.
-pub(crate) const MAX_NESTING: usize = 64;
+/// Most draws that a picture may take, those into render targets included, each as often as it is drawn.
+pub const MAX_DRAWS: usize = 1 << 15;
 
 impl Scene {
     /// Reads a scene and everything that it names.
@@ -33,8 +31,8 @@ impl Scene {
         resolver: &dyn Resolver,
         options: &LoadOptions,
     ) -> Result<Self, Box<SceneError>> {
-        let loaded = load(name, bytes, resolver, |text, files, problems| {
-            read(text, options, files, problems)
+        let loaded = load(name, bytes, resolver, |files, problems| {
+            read(bytes, options, files, problems)
         })?;
         Ok(Self {
             sources: loaded.sources,
@@ -60,7 +58,7 @@ pub(crate) fn load<T>(
     name: &str,
     bytes: &[u8],
     resolver: &dyn Resolver,
-    read: impl FnOnce(&str, &mut Files<'_>, &mut Problems) -> Option<T>,
+    read: impl FnOnce(&mut Files<'_>, &mut Problems) -> Option<T>,
 ) -> Result<Loaded<T>, Box<SceneError>> {
     let mut files = Files::new(resolver);
     let mut problems = Problems::default();
@@ -72,18 +70,9 @@ pub(crate) fn load<T>(
                 problems.error(&rules::LIMIT, file.span(), error.to_string());
             }
         }
-        Ok(file) => {
-            let span = file.span();
-            problems = Problems::new(span.start);
-            value = match std::str::from_utf8(bytes) {
-                Ok(text) => read(text, &mut files, &mut problems),
-                Err(error) => {
-                    let at = error.valid_up_to();
-                    let place = problems.span(at..at + 1);
-                    problems.error(&rules::SYNTAX, place, "this is not UTF-8");
-                    None
-                }
-            };
+        Ok(_) => {
+            // The file is the first of the map, so that its offsets are those of the map.
+            value = read(&mut files, &mut problems);
             sources = files.sources;
         }
     }
@@ -102,44 +91,17 @@ pub(crate) fn load<T>(
     }
 }
 
-/// How deep brackets nest at most, those in texts and comments included.
-fn nesting(text: &str) -> usize {
-    let (mut depth, mut most) = (0_usize, 0);
-    for byte in text.bytes() {
-        match byte {
-            b'[' | b'{' => depth += 1,
-            b']' | b'}' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        most = most.max(depth);
-    }
-    most
-}
-
-/// The tables of a TOML text; `None`, and the problems, if it is none.
-pub(crate) fn parse_toml<'t>(text: &'t str, problems: &mut Problems) -> Option<DeTable<'t>> {
-    let whole = problems.span(0..0);
-    if nesting(text) > MAX_NESTING {
-        let message = format!("brackets nest more than {MAX_NESTING} deep");
-        problems.error(&rules::LIMIT, whole, message);
-        return None;
-    }
-    let (table, errors) = DeTable::parse_recoverable(text);
-    for error in errors {
-        let place = error.span().map_or(whole, |range| problems.span(range));
-        problems.error(&rules::SYNTAX, place, error.message());
-    }
-    (!problems.any_error()).then(|| table.into_inner())
-}
-
 fn read(
-    text: &str,
+    bytes: &[u8],
     options: &LoadOptions,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Scene> {
-    let table = parse_toml(text, problems)?;
+    let whole = problems.span(0..0);
+    let table = include::parse(bytes, 0, problems)?;
     let mut root = Section::outermost("the scene file", table, problems);
+    let included = include::read(&mut root, files, problems);
+    include::merge(&mut root, &included, problems);
     let size = size(&mut root, problems);
     let clear = root.array_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
     let time = root.or("time", 0.0, problems);
@@ -216,6 +178,9 @@ fn read(
         sources: SourceMap::new(),
         warnings: Vec::new(),
     };
+    if !few_draws(&scene, whole, problems) {
+        return None;
+    }
     let reads = |number: usize| scene.targets_read_by(&scene.targets[number].draws);
     scene.order = target::order(&scene.targets, reads, problems);
     scene.check_meanings(problems);
@@ -271,6 +236,19 @@ fn texture_sources(
             Source::Irradiance { .. } => derived,
         })
         .collect()
+}
+
+/// Whether a picture takes no more draws than [`MAX_DRAWS`], those into targets included.
+fn few_draws(scene: &Scene, whole: Span, problems: &mut Problems) -> bool {
+    let into_targets = scene.targets.iter().map(|t| t.faces() * t.draws.len());
+    let count = into_targets.fold(scene.picture.len(), usize::saturating_add);
+    if count <= MAX_DRAWS {
+        return true;
+    }
+    let message =
+        format!("a picture of this scene takes {count} draws; at most {MAX_DRAWS} are allowed");
+    problems.error(&rules::LIMIT, whole, message);
+    false
 }
 
 /// Everything, unless something is missing.

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, ValueDeserializer};
+use toml::de::{DeArray, DeTable, DeValue, ValueDeserializer};
 
 use super::error::{Problems, advice, advice_from, rules};
 use crate::diagnostic::Span;
@@ -110,6 +110,62 @@ impl<'i> Section<'i> {
         self.asked.push(key);
         let at = self.nodes.iter().position(|node| node.key == key)?;
         Some(self.nodes.remove(at))
+    }
+
+    /// Adds entries to the table under a key, in front of those that are there; a name that is there already is told.
+    /// If there is no such table, it comes into being at `range`.
+    pub(crate) fn add_entries(
+        &mut self,
+        key: &str,
+        entries: DeTable<'i>,
+        range: std::ops::Range<usize>,
+        problems: &mut Problems,
+    ) {
+        let Some(node) = self.nodes.iter_mut().find(|node| node.key == key) else {
+            self.nodes.push(Node {
+                key: key.to_owned(),
+                key_span: problems.span(range.clone()),
+                value: Spanned::new(range, DeValue::Table(entries)),
+            });
+            return;
+        };
+        // A value of another kind is told when it is read.
+        let DeValue::Table(table) = node.value.get_mut() else {
+            return;
+        };
+        for (name, entry) in entries {
+            if let Some((own, _)) = table.get_key_value(name.get_ref().as_ref()) {
+                let message = format!("`{}` is in an included file already", name.get_ref());
+                problems.error(&rules::TWICE, problems.span(own.span()), message);
+                continue;
+            }
+            table.insert(name, entry);
+        }
+    }
+
+    /// Puts entries in front of a list of tables.
+    pub(crate) fn put_before(&mut self, key: &str, mut entries: DeArray<'i>) {
+        let Some(first) = entries.first().map(Spanned::span) else {
+            return;
+        };
+        let own = self.nodes.iter().position(|node| node.key == key);
+        let (key_span, range) = match own.map(|at| self.nodes.remove(at)) {
+            Some(node) => {
+                let range = node.value.span();
+                match node.value.into_inner() {
+                    DeValue::Array(list) => list.into_iter().for_each(|entry| entries.push(entry)),
+                    // Told when it is read: the list is what there is.
+                    other => entries.push(Spanned::new(range.clone(), other)),
+                }
+                (node.key_span, range)
+            }
+            None => (self.span, first),
+        };
+        self.nodes.push(Node {
+            key: key.to_owned(),
+            key_span,
+            value: Spanned::new(range, DeValue::Array(entries)),
+        });
     }
 
     /// The value of a key that is still there.
@@ -272,6 +328,9 @@ impl<'i> Section<'i> {
     /// Reports every key that nobody asked for.
     pub(crate) fn finish(self, problems: &mut Problems) {
         for node in &self.nodes {
+            if problems.full() {
+                return;
+            }
             let message = format!("{} has no key `{}`", self.title, node.key);
             let help = advice(&node.key, self.asked.iter().copied());
             problems.error_with(&rules::KEY, node.key_span, message, help);

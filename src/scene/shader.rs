@@ -5,13 +5,12 @@ use std::sync::Arc;
 use super::error::{Problems, rules};
 use super::files::Files;
 use super::section::{At, Section};
-use crate::diagnostic::{Diagnostic, Span, any_error};
+use crate::diagnostic::{Diagnostic, Span};
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Options, lower};
+use crate::listing;
 use crate::policy::Dialect;
 use crate::program::Program;
-use crate::syntax;
-use crate::validate::validate;
 
 /// A shader of a draw: what was written and what runs.
 #[derive(Clone, Debug)]
@@ -118,22 +117,18 @@ fn program(
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
-    let parsed = match files.sources.add(name, bytes) {
-        Ok(file) => syntax::parse(file),
+    let checked = match files.sources.add(name, bytes) {
+        Ok(file) => listing::check(file, dialect),
         Err(error) => {
             problems.error(&rules::LIMIT, span, error.to_string());
             return None;
         }
     };
-    let mut diagnostics = parsed.diagnostics;
-    let readable = !any_error(&diagnostics);
-    // What a damaged listing lacks would only be reported a second time, by what follows from it.
-    if readable && let Some(program) = &parsed.program {
-        diagnostics.extend(validate(program, dialect));
+    let accepted = checked.accepted().cloned().map(Arc::new);
+    for diagnostic in checked.diagnostics {
+        problems.push(diagnostic);
     }
-    let usable = !any_error(&diagnostics);
-    problems.list.extend(diagnostics);
-    parsed.program.filter(|_| usable).map(Arc::new)
+    accepted
 }
 
 /// Lowers a listing for the stages of a draw.
@@ -146,7 +141,7 @@ pub(crate) fn lowered(named: &Named, options: &Options, problems: &mut Problems)
         Err(error) => {
             let place = error.span;
             let diagnostic = Diagnostic::error(&rules::SHADER, place, error.message);
-            problems.list.push(diagnostic);
+            problems.push(diagnostic);
             None
         }
     }

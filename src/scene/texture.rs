@@ -4,6 +4,7 @@ use super::error::{Problems, rules};
 use super::files::{Files, extension};
 use super::generate::Request;
 use super::section::{At, Node, Section};
+use super::target::MAX_TARGET_SIDE;
 use crate::diagnostic::Span;
 use crate::texture::load::{
     cube_from_cross, cube_from_equirectangular, cube_from_faces, decode_dds, decode_image,
@@ -178,11 +179,13 @@ fn equirectangular(
     problems: &mut Problems,
 ) -> Option<Texture> {
     let path = s.at::<String>("equirectangular", problems);
-    let size: Option<u32> = s.get("face_size", problems);
+    let given = s.has("face_size");
+    let size = s.ranged("face_size", 1..=MAX_TARGET_SIDE, 1, problems);
     let path = path?;
     let picture = file(&path, files, problems)?;
     // A face spans a quarter of the picture's width.
-    let size = size.unwrap_or((picture.size()[0] / 4).max(1));
+    let quarter = (picture.size()[0] / 4).clamp(1, MAX_TARGET_SIDE);
+    let size = if given { size } else { quarter };
     made(
         cube_from_equirectangular(picture, size),
         path.span,

@@ -20,6 +20,7 @@ mod prologue;
 mod report;
 mod rules;
 mod statement;
+mod unread;
 
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,7 @@ mod tests;
 pub use fix::apply_fixes;
 pub use printer::{print, print_instruction};
 pub use rules::RULES;
+pub use unread::unread;
 
 use crate::diagnostic::{Diagnostic, SourceFile, Span};
 use crate::isa::Version;

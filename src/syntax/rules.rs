@@ -34,4 +34,5 @@ rules! {
     STRAY "P20" "Nothing but instructions and comments stands in a listing.";
     TOO_MANY "P21" "Only the first errors of a text are shown.";
     SPELLING "P22" "A spelling that the documents do not have is read where it can mean only one thing.";
+    UNREAD "P23" "What a pixel shader loads is read by a later instruction.";
 }

@@ -1,4 +1,5 @@
 //! The article's claim, measured: the corrected lookup meets the room where the ray through the pane meets it.
+#![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 use glam::{Mat4, Vec3, Vec4};
 use std::path::Path;
@@ -90,10 +91,12 @@ fn mean_angle(scene: &Scene) -> f32 {
     let environment = Environment {
         constants: pane.pixel_constants.clone(),
         stages: std::array::from_fn(|i| Stage {
-            texture: pane.stages[i].texture.and_then(|t| match &scene.textures()[t].source {
-                texcrd::scene::TextureSource::Loaded(texture) => Some(texture),
-                _ => None,
-            }),
+            texture: pane.stages[i]
+                .texture
+                .and_then(|t| match &scene.textures()[t].source {
+                    texcrd::scene::TextureSource::Loaded(texture) => Some(texture),
+                    _ => None,
+                }),
             sampler: pane.stages[i].sampler,
             bump: pane.stages[i].bump,
         }),
@@ -147,7 +150,10 @@ fn mean_angle(scene: &Scene) -> f32 {
             }
         }
     }
-    assert!(count > 1000, "the pane covers a good part of the picture, not {count} pixels");
+    assert!(
+        count > 1000,
+        "the pane covers a good part of the picture, not {count} pixels"
+    );
     sum / count as f32
 }
 
@@ -157,7 +163,9 @@ fn mean_angle(scene: &Scene) -> f32 {
 fn the_correction_finds_the_room() {
     let without = mean_angle(&scene("figure1.toml"));
     let with = mean_angle(&scene("figure5.toml"));
-    println!("mean angle between lookup and truth: {without:.2} degrees without the correction, {with:.2} with it");
+    println!(
+        "mean angle between lookup and truth: {without:.2} degrees without the correction, {with:.2} with it"
+    );
     assert!(without > 5.0, "{without}");
     assert!(with < without / 4.0, "{with} against {without}");
 }

@@ -14,13 +14,19 @@ fn diagnostics(path: &str) -> Vec<(u64, String, String)> {
         .map(|line| {
             let object: Value = serde_json::from_str(line).expect("one object a line");
             let text = |key: &str| object[key].as_str().expect(key).to_string();
-            (object["line"].as_u64().expect("line"), text("code"), text("severity"))
+            (
+                object["line"].as_u64().expect("line"),
+                text("code"),
+                text("severity"),
+            )
         })
         .collect()
 }
 
 fn lines_of(found: &[(u64, String, String)], severity: &str) -> Vec<u64> {
-    (found.iter().filter(|d| d.2 == severity)).map(|d| d.0).collect()
+    (found.iter().filter(|d| d.2 == severity))
+        .map(|d| d.0)
+        .collect()
 }
 
 #[test]
@@ -39,7 +45,9 @@ fn the_restored_listings_are_accepted() {
 #[test]
 fn the_scanned_vertex_shader() {
     let found = diagnostics("asm/stained_glass/scanned/stained_glass.vsh");
-    let damaged = [1, 9, 11, 12, 14, 16, 21, 23, 25, 31, 34, 38, 41, 46, 47, 54, 59];
+    let damaged = [
+        1, 9, 11, 12, 14, 16, 21, 23, 25, 31, 34, 38, 41, 46, 47, 54, 59,
+    ];
     assert_eq!(lines_of(&found, "error"), damaged);
     assert_eq!(lines_of(&found, "warning"), [36, 64]);
 }
@@ -63,7 +71,11 @@ fn what_is_certain_is_repaired() {
     }
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("still there");
     let pixel = read("stained_glass.psh");
-    for repaired in ["texcrd r1.rgb, t4\n", "\nlrp r2.rgb, c0.r, -r1, -r4;", "r3, r4_x2, r1"] {
+    for repaired in [
+        "texcrd r1.rgb, t4\n",
+        "\nlrp r2.rgb, c0.r, -r1, -r4;",
+        "r3, r4_x2, r1",
+    ] {
         assert!(pixel.contains(repaired), "{repaired} in\n{pixel}");
     }
     let vertex = read("stained_glass.vsh");
@@ -87,20 +99,41 @@ fn standard_input_is_repaired_to_standard_output() {
 /// Two texture instructions of six, one pair of eight, and so on, counted by hand.
 #[test]
 fn statistics() {
-    let ran = texcrd(&["check", "--stats", "--format", "json", "asm/stained_glass/stained_glass.psh"]);
+    let ran = texcrd(&[
+        "check",
+        "--stats",
+        "--format",
+        "json",
+        "asm/stained_glass/stained_glass.psh",
+    ]);
     let object: Value = serde_json::from_str(ran.out.trim()).expect("one object");
     let phases = &object["stats"]["phases"];
     let used = |phase: usize, what: &str| phases[phase][what]["used"].as_u64();
-    assert_eq!((used(0, "texture"), used(0, "arithmetic")), (Some(6), Some(5)));
-    assert_eq!((used(1, "texture"), used(1, "arithmetic")), (Some(4), Some(2)));
-    assert_eq!(object["stats"]["stages"], serde_json::json!([0, 2, 3, 4, 5]));
+    assert_eq!(
+        (used(0, "texture"), used(0, "arithmetic")),
+        (Some(6), Some(5))
+    );
+    assert_eq!(
+        (used(1, "texture"), used(1, "arithmetic")),
+        (Some(4), Some(2))
+    );
+    assert_eq!(
+        object["stats"]["stages"],
+        serde_json::json!([0, 2, 3, 4, 5])
+    );
 }
 
 #[test]
 fn diagnostics_are_read_by_people() {
     let ran = texcrd_with_input(&["check", "-"], b"ps.1.1\ntex t0\nmul r0, t0, v9\n");
     assert_eq!(ran.status, 1);
-    for part in ["error[O1]", "<stdin>:3:13", "mul r0, t0, v9", "^^", "1 error"] {
+    for part in [
+        "error[O1]",
+        "<stdin>:3:13",
+        "mul r0, t0, v9",
+        "^^",
+        "1 error",
+    ] {
         assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
     }
     // No colours in a pipe.
@@ -126,7 +159,10 @@ fn hopeless_input() {
         ("a long line", long_line),
         ("zeros", vec![0; 1 << 20]),
         ("an open comment", b"ps.1.1 /* mov r0, v0".to_vec()),
-        ("brackets", [b"vs.1.1\nmov r0, ".to_vec(), vec![b'['; 100_000]].concat()),
+        (
+            "brackets",
+            [b"vs.1.1\nmov r0, ".to_vec(), vec![b'['; 100_000]].concat(),
+        ),
         ("a PNG", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec()),
     ];
     for (what, input) in inputs {
@@ -135,7 +171,10 @@ fn hopeless_input() {
         assert_eq!(ran.status, 1, "{what}: {}", ran.err);
         assert!(!ran.err.contains("panicked"), "{what}: {}", ran.err);
         let said = ran.out.len() + ran.err.len();
-        assert!((20..200_000).contains(&said), "{what}: {said} bytes were said");
+        assert!(
+            (20..200_000).contains(&said),
+            "{what}: {said} bytes were said"
+        );
         // Generous: this is to find what never ends, not to measure.
         assert!(began.elapsed() < Duration::from_secs(60), "{what}");
     }

@@ -66,7 +66,13 @@ fn dp3_under_masks() {
         dp3 r0.r, r1, r4\ndp3 r0.g, r2, r4\ndp3 r0.b, r3, r4\nmov r0.a, c0\n";
     let result = eval(
         listing,
-        &["t1=1,2,3", "t2=0.5,0.5,0.5", "t3=0,0,2", "t4=1,0,-1", "c0=0.25"],
+        &[
+            "t1=1,2,3",
+            "t2=0.5,0.5,0.5",
+            "t3=0,0,2",
+            "t4=1,0,-1",
+            "c0=0.25",
+        ],
     );
     holds(&result, "r0", &[-2.0, 0.0, -2.0, 0.25]);
 }
@@ -96,7 +102,13 @@ fn phase() {
 fn m4x4() {
     let result = eval(
         "vs.1.1\nm4x4 oPos, v0, c0\n",
-        &["v0=1,2,3,1", "c0=1,0,0,1", "c1=0,2,0,0", "c2=0,0,3,0", "c3=0,0,0,1"],
+        &[
+            "v0=1,2,3,1",
+            "c0=1,0,0,1",
+            "c1=0,2,0,0",
+            "c2=0,0,3,0",
+            "c3=0,0,0,1",
+        ],
     );
     holds(&result, "oPos", &[2.0, 4.0, 9.0, 1.0]);
 }
@@ -106,7 +118,10 @@ fn m4x4() {
 #[test]
 fn m3x3_in_place() {
     let listing = "vs.1.1\nmov r3, v0\nm3x3 r3, r3, c5\nmov oPos, r3\n";
-    let result = eval(listing, &["v0=1,2,3,7", "c5=0,-1,0,0", "c6=1,0,0,0", "c7=0,0,1,0"]);
+    let result = eval(
+        listing,
+        &["v0=1,2,3,7", "c5=0,-1,0,0", "c6=1,0,0,0", "c7=0,0,1,0"],
+    );
     holds(&result, "oPos", &[-2.0, 1.0, 3.0, 7.0]);
 }
 
@@ -122,7 +137,10 @@ fn rsq() {
 /// Scalar instructions read w when nothing selects a component: rsq of 1/4 is 2.
 #[test]
 fn scalar_sources_read_w() {
-    let result = eval("vs.1.1\nrsq r0, v0\nrcp r1, v0.xyz\nmov oPos, r0\n", &["v0=4,9,5,0.25"]);
+    let result = eval(
+        "vs.1.1\nrsq r0, v0\nrcp r1, v0.xyz\nmov oPos, r0\n",
+        &["v0=4,9,5,0.25"],
+    );
     holds(&result, "oPos", &[2.0; 4]);
     // .xyz is .xyzz, its w slot is z: 1/5.
     holds(&result, "r1", &[0.2; 4]);
@@ -164,7 +182,10 @@ fn relative_addressing() {
 /// Outputs that are never written: diffuse 1, specular 0.
 #[test]
 fn defaults_of_outputs() {
-    let result = eval("vs.1.1\nmov oPos, v0\nmov oD0.x, v0\nmov oT1.xy, v0\n", &["v0=0.5"]);
+    let result = eval(
+        "vs.1.1\nmov oPos, v0\nmov oD0.x, v0\nmov oT1.xy, v0\n",
+        &["v0=0.5"],
+    );
     holds(&result, "oD0", &[0.5, 1.0, 1.0, 1.0]);
     holds(&result, "oT1", &[0.5, 0.5, 0.0, 0.0]);
 }
@@ -188,7 +209,10 @@ fn texkill_and_texdepth() {
 
 #[test]
 fn the_trace_tells_line_and_writes() {
-    let result = eval("ps.1.1\n\nmov r0.rgb, v0\n+mov r0.a, c0\n", &["v0=0.5", "c0=0.25"]);
+    let result = eval(
+        "ps.1.1\n\nmov r0.rgb, v0\n+mov r0.a, c0\n",
+        &["v0=0.5", "c0=0.25"],
+    );
     let trace = result["trace"].as_array().expect("a list");
     assert_eq!(trace.len(), 2);
     assert_eq!(trace[0]["line"], 3);

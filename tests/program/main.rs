@@ -1,4 +1,5 @@
 //! The program, run as people run it.
+#![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 mod check;
 mod eval;

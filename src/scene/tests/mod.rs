@@ -2,6 +2,7 @@ mod broken;
 mod documented;
 mod meanings;
 mod pixels;
+mod refused;
 mod targets;
 
 use std::collections::BTreeMap;

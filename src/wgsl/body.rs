@@ -1,0 +1,555 @@
+//! The body of an entry point: what the lines of a listing became.
+
+use super::constants::{self, Constant, bound_value};
+use super::expression::{Expression, Value, construct};
+use super::helper::Helpers;
+use super::layout::{Block, Field};
+use super::listing::Lines;
+use super::magnitude::{Magnitudes, Outcome};
+use super::number;
+use super::{Options, Stage};
+use crate::isa::operand::{RGBA, XYZW};
+use crate::isa::{ShaderKind, WriteMask};
+use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::program::Statement;
+use std::collections::{BTreeSet, HashMap};
+
+/// A write that waits until the steps beside it have read.
+struct Pending<'k> {
+    step: &'k Step,
+    value: Value,
+    outcome: Outcome,
+}
+
+/// Writes the steps of one kernel.
+pub(super) struct Body<'a> {
+    pub(super) stage: &'a Stage<'a>,
+    pub(super) options: &'a Options,
+    pub(super) block: Block,
+    pub(super) helpers: Helpers,
+    pub(super) magnitudes: Magnitudes,
+    /// Components of each varying, by coordinate set; pixel stage only.
+    varying_widths: [usize; 8],
+    /// The components that each slot has in the WGSL; 0 if it is not used.
+    widths: [usize; SLOT_COUNT],
+    read: [WriteMask; SLOT_COUNT],
+    /// Whether constants are addressed relatively, which takes all of them from the uniform block.
+    pub(super) relative: bool,
+    /// Names that `let` has taken.
+    names: BTreeSet<String>,
+    killing: bool,
+    discards: bool,
+    /// The lines so far, not indented.
+    lines: Vec<String>,
+}
+
+/// The slots of source `i` that an operation uses when it writes these components and the textures have these shapes.
+pub(super) fn slots_read(op: Op, mask: WriteMask, i: usize, options: &Options) -> WriteMask {
+    match op {
+        Op::Sample(stage) => match options.stages[usize::from(stage) & 7].coordinates() {
+            0 => WriteMask::NONE,
+            2 => WriteMask::XY,
+            _ => WriteMask::XYZ,
+        },
+        op => op.slots_read(i, mask),
+    }
+}
+
+/// The components of every slot that a kernel reads when the textures have these shapes.
+pub(super) fn components_read(kernel: &Kernel, options: &Options) -> [WriteMask; SLOT_COUNT] {
+    let mut read = [WriteMask::NONE; SLOT_COUNT];
+    // Backwards, so that it is known which coordinates are sampled when the step comes that computes them.
+    for step in kernel.steps.iter().rev() {
+        let mask = kept(kernel, &read, step);
+        if mask.is_empty() && step.op != Op::Kill {
+            continue;
+        }
+        for (i, operand) in step.sources.iter().enumerate() {
+            if let Place::Slot(slot) = operand.place {
+                let components = operand.swizzle.reads(slots_read(step.op, mask, i, options));
+                read[slot.index()] = read[slot.index()].or(components);
+            }
+        }
+    }
+    read
+}
+
+impl<'a> Body<'a> {
+    pub(super) fn new(
+        stage: &'a Stage<'a>,
+        options: &'a Options,
+        varying_widths: [usize; 8],
+    ) -> Self {
+        let kernel = stage.kernel;
+        let read = components_read(kernel, options);
+        let mut used = read;
+        for step in &kernel.steps {
+            if step.op != Op::Kill {
+                let at = step.destination.index();
+                used[at] = used[at].or(kept(kernel, &read, step));
+            }
+        }
+        let mut widths = used.map(width_of);
+        widths[Slot::COORDINATES.index()] = width_of(read[Slot::COORDINATES.index()]);
+        for scalar in [Slot::FOG, Slot::POINT_SIZE, Slot::ADDRESS, Slot::DEPTH] {
+            widths[scalar.index()] = widths[scalar.index()].min(1);
+        }
+        let kind = kernel.version.kind();
+        match kind {
+            ShaderKind::Pixel => widths[Slot::R0.index()] = 4,
+            ShaderKind::Vertex => {
+                for color in (0..2)
+                    .filter_map(Slot::color_output)
+                    .chain([Slot::POSITION])
+                {
+                    let width = &mut widths[color.index()];
+                    *width = if *width > 0 { 4 } else { 0 };
+                }
+            }
+        }
+        let mut body = Self {
+            stage,
+            options,
+            block: Block::default(),
+            helpers: Helpers::default(),
+            magnitudes: Magnitudes::new(kind, HashMap::new(), [false; 8]),
+            varying_widths,
+            widths,
+            read,
+            relative: { kernel.steps.iter() }
+                .any(|step| step.sources.iter().any(constants::is_relative)),
+            names: BTreeSet::new(),
+            killing: false,
+            discards: false,
+            lines: Vec::new(),
+        };
+        let known: HashMap<u32, [f32; 4]> = (kernel.definitions.iter())
+            .filter(|(index, _)| body.constant(*index) == Constant::Defined)
+            .map(|(index, value)| (*index, bound_value(kind, *value)))
+            .collect();
+        let wide = options.stages.map(|stage| stage.wide_texels);
+        body.magnitudes = Magnitudes::new(kind, known, wide);
+        let uniform = |index: &u32| body.constant(*index) == Constant::Uniform;
+        let named = kernel
+            .constants()
+            .filter(uniform)
+            .map(|index| index + 1)
+            .max();
+        if body.relative {
+            body.widths[Slot::ADDRESS.index()] = 1;
+        }
+        body.block.constants = match body.relative {
+            true => body.constant_count(),
+            false => named.unwrap_or(0),
+        };
+        body
+    }
+
+    pub(super) fn kind(&self) -> ShaderKind {
+        self.stage.kernel.version.kind()
+    }
+
+    /// The components that a slot has in the WGSL; 0 if nothing writes or reads it.
+    pub(super) fn width(&self, slot: Slot) -> usize {
+        let set = (0..8).find(|i| Slot::texcoord(*i) == Some(slot));
+        match set {
+            Some(set) => self.varying_widths[set],
+            None if self.is_input(slot) => 4,
+            None => self.widths[slot.index()],
+        }
+    }
+
+    fn is_input(&self, slot: Slot) -> bool {
+        (0..16).any(|i| Slot::input(i) == Some(slot))
+    }
+
+    pub(super) fn name(&self, slot: Slot) -> String {
+        let name = slot.name(self.kind());
+        let from_outside = (0..8).any(|i| Slot::texcoord(i) == Some(slot))
+            || (self.is_input(slot) && self.kind() == ShaderKind::Vertex);
+        if from_outside {
+            format!("in.{name}")
+        } else {
+            name
+        }
+    }
+
+    fn letters(&self, slot: Slot) -> [char; 4] {
+        let coordinates = (0..8).any(|i| Slot::texcoord(i) == Some(slot)) || slot.is_internal();
+        match self.kind() {
+            ShaderKind::Pixel if !coordinates => RGBA,
+            _ => XYZW,
+        }
+    }
+
+    /// Notes that the pixel may be taken out.
+    pub(super) fn note_discard(&mut self) {
+        self.discards = true;
+    }
+
+    pub(super) fn discards(&self) -> bool {
+        self.discards
+    }
+
+    /// Where the next line will stand.
+    pub(super) fn mark(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Indents the lines since a mark.
+    pub(super) fn indent_from(&mut self, mark: usize) {
+        for line in self.lines.iter_mut().skip(mark) {
+            line.insert_str(0, "    ");
+        }
+    }
+
+    /// Puts an empty line at a mark.
+    pub(super) fn insert_blank(&mut self, mark: usize) {
+        self.lines.insert(mark.min(self.lines.len()), String::new());
+    }
+
+    pub(super) fn push(&mut self, line: impl Into<String>) {
+        self.lines.push(line.into());
+    }
+
+    /// A field of the uniform block.
+    pub(super) fn uniform(&mut self, field: Field) -> String {
+        self.block.use_field(field);
+        let block = match self.kind() {
+            ShaderKind::Vertex => "vs",
+            ShaderKind::Pixel => "ps",
+        };
+        format!("{block}.{}", field.name())
+    }
+
+    /// The lines, indented, and what they need.
+    pub(super) fn finish(self) -> (String, Block, Helpers) {
+        let mut text = String::new();
+        for line in &self.lines {
+            if !line.is_empty() {
+                text.push_str("    ");
+                text.push_str(line);
+            }
+            text.push('\n');
+        }
+        (text, self.block, self.helpers)
+    }
+
+    /// Everything between the head of the function and its outputs.
+    pub(super) fn statements(&mut self) {
+        let (program, kernel) = (self.stage.program, self.stage.kernel);
+        let mut lines = Lines::new(self.stage);
+        self.lines.extend(lines.up_to(program.version_span));
+        self.declarations();
+        let mut steps = kernel.steps.as_slice();
+        let loads = steps.iter().take_while(|step| is_load(step)).count();
+        for load in &steps[..loads] {
+            self.step(load, &mut Vec::new());
+        }
+        steps = &steps[loads..];
+        let mut pending = Vec::new();
+        let mut number = 0;
+        for statement in &program.statements {
+            self.lines.extend(lines.up_to(statement.span()));
+            match statement {
+                Statement::Def(def) => self.definition(def),
+                Statement::Dcl(_) => {}
+                Statement::Instruction(_) => {
+                    let count = steps
+                        .iter()
+                        .take_while(|step| step.origin == number)
+                        .count();
+                    let (own, rest) = steps.split_at(count);
+                    self.instruction(own, &mut pending);
+                    steps = rest;
+                    number += 1;
+                }
+            }
+        }
+        self.commit(&mut pending);
+        self.lines.extend(lines.rest());
+    }
+
+    /// The registers, and what pixel shaders read through a clamp.
+    fn declarations(&mut self) {
+        let kernel = self.stage.kernel;
+        if self.kind() == ShaderKind::Pixel {
+            for color in (0..2).filter_map(Slot::input) {
+                if !self.read[color.index()].is_empty() {
+                    let name = self.name(color);
+                    self.push(format!("let {name} = saturate(in.{name});"));
+                }
+            }
+            let named: BTreeSet<u32> = (kernel.constants())
+                .filter(|index| self.names_constant(*index))
+                .filter(|index| self.constant(*index) == Constant::Uniform)
+                .collect();
+            for index in named {
+                let c = self.uniform(Field::Constants);
+                self.push(format!(
+                    "let c{index} = clamp({c}[{index}], vec4f(-1.0), vec4f(1.0));"
+                ));
+            }
+        }
+        for slot in Slot::all() {
+            let width = self.widths[slot.index()];
+            let from_outside =
+                self.is_input(slot) || (0..8).any(|i| Slot::texcoord(i) == Some(slot));
+            if width == 0 || from_outside {
+                continue;
+            }
+            let name = self.name(slot);
+            let preset = (kernel.presets.iter()).find(|(preset, _)| *preset == slot);
+            let line = match (width, preset) {
+                (1, _) if slot == Slot::ADDRESS => format!("var {name}: i32;"),
+                (1, _) => format!("var {name}: f32;"),
+                (_, Some((_, value))) if *value == [1.0; 4] => {
+                    format!("var {name} = vec{width}f(1.0);")
+                }
+                _ => format!("var {name}: vec{width}f;"),
+            };
+            self.push(line);
+        }
+        if kernel.kills() {
+            self.push("var killed = false;");
+        }
+    }
+
+    fn instruction(&mut self, steps: &'a [Step], pending: &mut Vec<Pending<'a>>) {
+        let rows = |step: &&Step| matches!(step.op, Op::Dp3 | Op::Dp4) && step.mask.count() == 1;
+        let same = |a: &Step, b: &Step| a.destination == b.destination && a.result == b.result;
+        if let [first, _, ..] = steps
+            && steps.iter().all(|step| rows(&step) && same(step, first))
+        {
+            self.rows(steps);
+            return;
+        }
+        for step in steps {
+            self.step(step, pending);
+        }
+    }
+
+    /// The rows of a matrix macro in one assignment, so that all of them read before any of them writes.
+    fn rows(&mut self, steps: &'a [Step]) {
+        let mut mask = WriteMask::NONE;
+        let mut parts = Vec::new();
+        let mut outcomes = Vec::new();
+        let kernel = self.stage.kernel;
+        let kept = |step: &&Step, read: &_| !kept(kernel, read, step).is_empty();
+        for step in steps
+            .iter()
+            .filter(|step| kept(step, &self.read))
+            .collect::<Vec<_>>()
+        {
+            mask = mask.or(step.mask);
+            parts.push(self.value(step).whole().finished(step.result));
+            outcomes.push((step, self.magnitudes.outcome(step)));
+        }
+        if let Some((first, _)) = outcomes.first() {
+            self.assign(first.destination, mask, Value::Parts(parts));
+        }
+        for (step, outcome) in outcomes {
+            self.magnitudes.write(step, outcome);
+        }
+    }
+
+    fn step(&mut self, step: &'a Step, pending: &mut Vec<Pending<'a>>) {
+        if let Op::Kill = step.op {
+            let Some(operand) = step.sources.first() else {
+                return;
+            };
+            let tested = self.operand(operand, WriteMask::XYZ).spread(3);
+            let test = format!("any({} < vec3f())", tested.text);
+            let before = if self.killing { "killed || " } else { "" };
+            self.push(format!("killed = {before}{test};"));
+            self.killing = true;
+            return;
+        }
+        let mask = kept(self.stage.kernel, &self.read, step);
+        if mask.is_empty() {
+            return;
+        }
+        if mask != step.mask {
+            let narrowed = Step {
+                mask,
+                ..step.clone()
+            };
+            return self.unheld(&narrowed);
+        }
+        let overlaps = pending.iter().any(|p| {
+            p.step.destination == step.destination && !p.step.mask.and(step.mask).is_empty()
+        });
+        if step.held || overlaps {
+            let outcome = self.magnitudes.outcome(step);
+            let value = self.value(step).finished(step.result).whole();
+            let name = self.free_name(step);
+            self.push(format!("let {name} = {};", value.text));
+            let value = Value::Whole(Expression::new(name, value.width));
+            pending.push(Pending {
+                step,
+                value,
+                outcome,
+            });
+            if !step.held {
+                self.commit(pending);
+            }
+            return;
+        }
+        self.unheld(step);
+        self.commit(pending);
+    }
+
+    /// A step that is written at once.
+    fn unheld(&mut self, step: &Step) {
+        let outcome = self.magnitudes.outcome(step);
+        match step.op {
+            Op::Sample(stage) => self.sample(step, stage),
+            _ => {
+                let value = self.value(step).finished(step.result);
+                self.assign(step.destination, step.mask, value);
+            }
+        }
+        self.magnitudes.write(step, outcome);
+    }
+
+    fn commit(&mut self, pending: &mut Vec<Pending<'a>>) {
+        for write in pending.drain(..) {
+            self.assign(write.step.destination, write.step.mask, write.value);
+            self.magnitudes.write(write.step, write.outcome);
+        }
+    }
+
+    /// A name for a value that waits: that of the register with the components, and a number if need be.
+    fn free_name(&mut self, step: &Step) -> String {
+        let letters = self.letters(step.destination);
+        let components: String = step.mask.components().map(|c| letters[c]).collect();
+        let base = format!("{}_{components}", self.name(step.destination));
+        let mut name = base.clone();
+        let mut number = 2;
+        while !self.names.insert(name.clone()) {
+            name = format!("{base}_{number}");
+            number += 1;
+        }
+        name
+    }
+
+    /// Assigns a value to some components of a slot. WGSL assigns to one component or to all, so that everything
+    /// between writes the others back.
+    pub(super) fn assign(&mut self, slot: Slot, mask: WriteMask, value: Value) {
+        let (name, width, letters) = (self.name(slot), self.width(slot), self.letters(slot));
+        let components: Vec<usize> = mask.components().collect();
+        let count = components.len();
+        if width == 1 {
+            let value = value.whole().text;
+            return self.push(format!("{name} = {value};"));
+        }
+        if let [only] = components.as_slice() {
+            let value = value.whole().text;
+            return self.push(format!("{name}.{} = {value};", letters[*only]));
+        }
+        if count == width {
+            let value = value.whole().spread(width).text;
+            return self.push(format!("{name} = {value};"));
+        }
+        let (Some(&first), Some(&last)) = (components.first(), components.last()) else {
+            return;
+        };
+        let keep = |range: std::ops::Range<usize>| -> Option<String> {
+            let kept: String = range.map(|c| letters[c]).collect();
+            (!kept.is_empty()).then(|| format!("{name}.{kept}"))
+        };
+        if last + 1 - first == count {
+            let written = match value {
+                Value::Whole(whole) => vec![whole.spread(count).text],
+                Value::Parts(parts) => parts.into_iter().map(|part| part.text).collect(),
+            };
+            let parts = keep(0..first)
+                .into_iter()
+                .chain(written)
+                .chain(keep(last + 1..width));
+            let all = construct(parts.collect(), width);
+            return self.push(format!("{name} = {};", all.text));
+        }
+        let value = value.whole().spread(count).text;
+        let together: String = components.iter().map(|c| letters[*c]).collect();
+        self.push("{");
+        self.push(format!("    let {together} = {value};"));
+        for (part, component) in components.iter().enumerate() {
+            self.push(format!(
+                "    {name}.{} = {together}.{};",
+                letters[*component], XYZW[part]
+            ));
+        }
+        self.push("}");
+    }
+
+    /// What an operand reads into the slots of the mask: a scalar if all of them read the same component.
+    pub(super) fn operand(&mut self, operand: &Operand, slots: WriteMask) -> Expression {
+        let components: Vec<usize> = slots
+            .components()
+            .map(|s| operand.swizzle.slot(s))
+            .collect();
+        let (name, width, letters) = match operand.place {
+            Place::Slot(slot) => (self.name(slot), self.width(slot), self.letters(slot)),
+            Place::Constant(index) => (self.constant_name(index), 4, self.constant_letters()),
+            Place::Relative(offset) => (self.relative_constant(offset), 4, XYZW),
+            Place::Literal(value) => {
+                let text = number::literal(value).unwrap_or_else(|| "0.0".into());
+                return Expression::new(text, 1).modified(operand.modifier);
+            }
+        };
+        select(name, width, &components, letters).modified(operand.modifier)
+    }
+}
+
+/// Components of a vector of `width` components: a scalar if they are all the same.
+pub(super) fn select(
+    name: String,
+    width: usize,
+    components: &[usize],
+    letters: [char; 4],
+) -> Expression {
+    let first = components.first().copied().unwrap_or(0);
+    if width == 1 {
+        return Expression::new(name, 1);
+    }
+    if components.iter().all(|c| *c == first) {
+        return Expression::new(format!("{name}.{}", letters[first]), 1);
+    }
+    let count = components.len();
+    if components.iter().copied().eq(0..width) {
+        return Expression::new(name, count);
+    }
+    let swizzle: String = components.iter().map(|c| letters[*c]).collect();
+    Expression::new(format!("{name}.{swizzle}"), count)
+}
+
+/// The components that a step writes and that are not lost: of coordinates those that are sampled, of outputs with one
+/// component that one.
+fn kept(kernel: &Kernel, read: &[WriteMask; SLOT_COUNT], step: &Step) -> WriteMask {
+    match step.destination {
+        Slot::COORDINATES => step.mask.and(read[Slot::COORDINATES.index()]),
+        Slot::FOG => step.mask.and(WriteMask::component(kernel.fog_component)),
+        Slot::POINT_SIZE => step
+            .mask
+            .and(WriteMask::component(kernel.point_size_component)),
+        _ => step.mask,
+    }
+}
+
+/// Vectors that hold these components; a single x takes two, so that it can be named.
+fn width_of(used: WriteMask) -> usize {
+    used.components().last().map_or(0, |last| (last + 1).max(2))
+}
+
+/// Whether a step loads coordinates into a texture register before the first instruction.
+fn is_load(step: &Step) -> bool {
+    let texture = (0..4).any(|i| Slot::texture(i) == Some(step.destination));
+    let coordinates = |operand: &Operand| {
+        (0..8).any(|i| Slot::texcoord(i).map(Place::Slot) == Some(operand.place))
+    };
+    step.op == Op::Mov
+        && step.mask == WriteMask::ALL
+        && texture
+        && step.sources.iter().all(coordinates)
+}

@@ -1,0 +1,297 @@
+//! The functions that a translation may need, as they stand in it.
+
+use super::number::{LARGEST, SMALLEST_NORMAL};
+use std::collections::BTreeSet;
+
+/// A function, or a family of functions that differ in their number of components. What another one calls stands
+/// before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Helper {
+    /// Product of vectors with this many components (1: numbers).
+    MulZero(usize),
+    /// Dot product of vectors with this many components, written out.
+    Dot(usize),
+    /// The same with [`Helper::MulZero`].
+    DotZero(usize),
+    Rcp,
+    Rsq,
+    Log2,
+    PartialPrecision,
+    ExpP,
+    LogP,
+    Lit,
+    Divide,
+    Mirror,
+    /// Relative addressing of this many constants.
+    ConstantAt(u32),
+    InsideLinear,
+    InsidePoint,
+    CubeFace,
+    OnFace,
+    SampleFaces,
+    SampleFacesBias,
+    LinearFog,
+}
+
+impl Helper {
+    /// Its name.
+    pub(super) fn name(self) -> String {
+        let counted = |name: &str, width: usize| match width {
+            1 => name.to_string(),
+            _ => format!("{name}{width}"),
+        };
+        match self {
+            Self::MulZero(width) => counted("mul_zero", width),
+            Self::Dot(width) => counted("dp", width),
+            Self::DotZero(width) => format!("dp{width}_zero"),
+            Self::Rcp => "rcp".into(),
+            Self::Rsq => "rsq".into(),
+            Self::Log2 => "log2_abs".into(),
+            Self::PartialPrecision => "partial_precision".into(),
+            Self::ExpP => "expp".into(),
+            Self::LogP => "logp".into(),
+            Self::Lit => "lit".into(),
+            Self::Divide => "divide".into(),
+            Self::Mirror => "mirror".into(),
+            Self::ConstantAt(_) => "constant_at".into(),
+            Self::InsideLinear => "inside_linear".into(),
+            Self::InsidePoint => "inside_point".into(),
+            Self::CubeFace => "cube_face".into(),
+            Self::OnFace => "on_face".into(),
+            Self::SampleFaces => "sample_faces".into(),
+            Self::SampleFacesBias => "sample_faces_bias".into(),
+            Self::LinearFog => "linear_fog".into(),
+        }
+    }
+
+    /// What it calls.
+    fn needs(self) -> Vec<Helper> {
+        match self {
+            Self::DotZero(width) => vec![Self::MulZero(width)],
+            Self::ExpP => vec![Self::PartialPrecision],
+            Self::LogP => vec![Self::Log2, Self::PartialPrecision],
+            Self::Lit => vec![Self::Log2],
+            Self::SampleFaces | Self::SampleFacesBias => vec![Self::CubeFace, Self::OnFace],
+            _ => Vec::new(),
+        }
+    }
+
+    fn text(self) -> String {
+        match self {
+            Self::MulZero(width) => mul_zero(&self.name(), width),
+            Self::Dot(width) => format!(
+                "// The dot product, summed from left to right.\n\
+                 fn {}(a: vec{width}f, b: vec{width}f) -> f32 {{\n    return {};\n}}\n",
+                self.name(),
+                sum(width, |c| format!("a.{c} * b.{c}")),
+            ),
+            Self::DotZero(width) => format!(
+                "// The dot product of {name}.\n\
+                 fn {}(a: vec{width}f, b: vec{width}f) -> f32 {{\n    let p = {name}(a, b);\n    return {};\n}}\n",
+                self.name(),
+                sum(width, |c| format!("p.{c}")),
+                name = Self::MulZero(width).name(),
+            ),
+            Self::ConstantAt(count) => format!(
+                "// The constant of this number; 0 outside of the constants there are.\n\
+                 fn constant_at(index: i32) -> vec4f {{\n    \
+                     if index < 0 || index >= {count} {{\n        return vec4f();\n    }}\n    \
+                     return vs.c[index];\n}}\n"
+            ),
+            Self::Rcp => format!(
+                "// 1 / x; the largest number where x is 0.\n\
+                 fn rcp(x: f32) -> f32 {{\n    \
+                     return select(1.0 / x, {LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+            ),
+            Self::Rsq => format!(
+                "// 1 / √|x|; the largest number where x is 0.\n\
+                 fn rsq(x: f32) -> f32 {{\n    \
+                     return select(inverseSqrt(abs(x)), {LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+            ),
+            Self::Log2 => format!(
+                "// log2 |x|; the smallest number where x is 0.\n\
+                 fn log2_abs(x: f32) -> f32 {{\n    \
+                     return select(log2(abs(x)), -{LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+            ),
+            Self::LogP => format!(
+                "// Exponent and mantissa of |x|, log2 |x| in partial precision, 1.\n\
+                 fn logp(x: f32) -> vec4f {{\n    \
+                     let v = abs(x);\n    \
+                     if v < {SMALLEST_NORMAL} {{\n        return vec4f(-{LARGEST}, 1.0, -{LARGEST}, 1.0);\n    }}\n    \
+                     if !(v <= {LARGEST}) {{\n        return vec4f(v, 1.0, v, 1.0);\n    }}\n    \
+                     let exponent = f32(i32(bitcast<u32>(v) >> 23u) - 127);\n    \
+                     let mantissa = bitcast<f32>((bitcast<u32>(v) & 0x007fffffu) | 0x3f800000u);\n    \
+                     return vec4f(exponent, mantissa, partial_precision(log2_abs(v)), 1.0);\n}}\n"
+            ),
+            Self::ExpP => format!(
+                "// 2 to the power of ⌊x⌋, x - ⌊x⌋, 2 to the power of x in partial precision, 1.\n\
+                 fn expp(x: f32) -> vec4f {{\n    \
+                     let fraction = select(x - floor(x), 0.0, abs(x) > {LARGEST});\n    \
+                     return vec4f(exp2(floor(x)), fraction, partial_precision(exp2(x)), 1.0);\n}}\n"
+            ),
+            Self::PartialPrecision => PARTIAL_PRECISION.into(),
+            Self::Lit => LIT.into(),
+            Self::Divide => DIVIDE.into(),
+            Self::Mirror => MIRROR.into(),
+            Self::InsideLinear => INSIDE_LINEAR.into(),
+            Self::InsidePoint => INSIDE_POINT.into(),
+            Self::CubeFace => CUBE_FACE.into(),
+            Self::OnFace => ON_FACE.into(),
+            Self::SampleFaces => sample_faces(false),
+            Self::SampleFacesBias => sample_faces(true),
+            Self::LinearFog => LINEAR_FOG.into(),
+        }
+    }
+}
+
+fn sum(width: usize, term: impl Fn(char) -> String) -> String {
+    let terms: Vec<String> = "xyzw".chars().take(width).map(term).collect();
+    terms.join(" + ")
+}
+
+fn mul_zero(name: &str, width: usize) -> String {
+    let (of, zero, or) = match width {
+        1 => ("f32".to_string(), "0.0".to_string(), "||"),
+        _ => (format!("vec{width}f"), format!("vec{width}f()"), "|"),
+    };
+    format!(
+        "// a * b, but 0 times anything is 0, also times infinity.\n\
+         fn {name}(a: {of}, b: {of}) -> {of} {{\n    \
+             return select(a * b, {zero}, (a == {zero}) {or} (b == {zero}));\n}}\n"
+    )
+}
+
+const PARTIAL_PRECISION: &str = "\
+// x without its eight lowest bits.
+fn partial_precision(x: f32) -> f32 {
+    return bitcast<f32>(bitcast<u32>(x) & 0xffffff00u);
+}
+";
+
+const LIT: &str = "\
+// Lighting coefficients from N·L, N·H and the power of the specular term.
+fn lit(n_l: f32, n_h: f32, power: f32) -> vec4f {
+    let specular = exp2(clamp(power, -127.99609, 127.99609) * log2_abs(n_h));
+    let diffuse = select(0.0, n_l, n_l > 0.0);
+    return vec4f(1.0, diffuse, select(0.0, specular, n_l > 0.0 && n_h > 0.0), 1.0);
+}
+";
+
+const DIVIDE: &str = "\
+// Coordinates over their divisor; 1 where that is 0.
+fn divide(x: vec2f, y: f32) -> vec2f {
+    return select(x / y, vec2f(1.0), y == 0.0);
+}
+";
+
+const MIRROR: &str = "\
+// e mirrored at n, which need not have unit length; -e where n is 0.
+fn mirror(n: vec3f, e: vec3f) -> vec3f {
+    let square = dot(n, n);
+    return select(2.0 * dot(n, e) / square, 0.0, square == 0.0) * n - e;
+}
+";
+
+const INSIDE_LINEAR: &str = "\
+// The share of the texels of a linear filter that lie inside, along one axis of this many texels.
+fn inside_linear(u: f32, size: u32) -> f32 {
+    let x = u * f32(size);
+    return saturate(x + 0.5) * saturate(f32(size) - x + 0.5);
+}
+";
+
+const INSIDE_POINT: &str = "\
+// 1 inside, 0 outside of a texture, along one axis.
+fn inside_point(u: f32) -> f32 {
+    return f32(u >= 0.0 && u < 1.0);
+}
+";
+
+const CUBE_FACE: &str = "\
+// The face of a cube that a direction meets: +X, -X, +Y, -Y, +Z, -Z; among equals z comes before y and y before x.
+fn cube_face(direction: vec3f) -> u32 {
+    let a = abs(direction);
+    if a.z >= a.y && a.z >= a.x {
+        return select(4u, 5u, direction.z < 0.0);
+    }
+    if a.y >= a.x {
+        return select(2u, 3u, direction.y < 0.0);
+    }
+    return select(0u, 1u, direction.x < 0.0);
+}
+";
+
+const ON_FACE: &str = "\
+// Where a direction meets the plane of a face, 0 to 1 to the right and down; far away where it points past the plane.
+fn on_face(face: u32, direction: vec3f) -> vec2f {
+    let d = direction;
+    var at: vec3f;
+    switch face {
+        case 0u: { at = vec3f(-d.z, -d.y, d.x); }
+        case 1u: { at = vec3f(d.z, -d.y, -d.x); }
+        case 2u: { at = vec3f(d.x, d.z, d.y); }
+        case 3u: { at = vec3f(d.x, -d.z, -d.y); }
+        case 4u: { at = vec3f(d.x, -d.y, d.z); }
+        default: { at = vec3f(-d.x, -d.y, -d.z); }
+    }
+    let a = abs(d);
+    let distance = max(at.z, max(a.x, max(a.y, a.z)) / 1048576.0);
+    return select((at.xy / distance + 1.0) / 2.0, vec2f(0.5), distance == 0.0);
+}
+";
+
+const LINEAR_FOG: &str = "\
+// How clear it is at a distance between the start and the end of fog; a step where both are in one place.
+fn linear_fog(distance: f32, start: f32, end: f32) -> f32 {
+    return select((end - distance) / (end - start), f32(distance < end), start == end);
+}
+";
+
+fn sample_faces(bias: bool) -> String {
+    let (name, parameter, dx, dy, about) = if bias {
+        (
+            "sample_faces_bias",
+            ", bias: f32",
+            "exp2(bias) * (dx - at)",
+            "exp2(bias) * (dy - at)",
+            " with a bias of the level of detail",
+        )
+    } else {
+        ("sample_faces", "", "dx - at", "dy - at", "")
+    };
+    format!(
+        "// A cube as Direct3D 8 filters it, each face for itself{about}.\n\
+         fn {name}(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f{parameter}) -> vec4f {{\n    \
+             let face = cube_face(direction);\n    \
+             let at = on_face(face, direction);\n    \
+             let dx = on_face(face, direction + dpdx(direction));\n    \
+             let dy = on_face(face, direction + dpdy(direction));\n    \
+             return textureSampleGrad(faces, clamped, at, face, {dx}, {dy});\n}}\n"
+    )
+}
+
+/// The functions that a translation needs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Helpers(BTreeSet<Helper>);
+
+impl Helpers {
+    /// Notes that a function is needed, with all that it calls, and gives its name.
+    pub(super) fn call(&mut self, helper: Helper) -> String {
+        for needed in helper.needs() {
+            self.call(needed);
+        }
+        self.0.insert(helper);
+        helper.name()
+    }
+
+    /// Takes over what another stage needs.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.0.extend(&other.0);
+    }
+
+    /// The functions, one after the other.
+    pub(super) fn text(&self) -> String {
+        let texts: Vec<String> = self.0.iter().map(|helper| helper.text()).collect();
+        texts.join("\n")
+    }
+}

@@ -1,0 +1,340 @@
+//! How large the numbers in registers may become, and so where a product needs the rule that 0 times anything is 0.
+//!
+//! With finite factors the product of WGSL obeys that rule by itself. A factor may be infinite or NaN only behind an
+//! operation that can overflow. So an upper bound of the magnitude is kept for every component of every register, and
+//! the guarded product is written only where a bound is infinite and the other factor may be 0.
+//!
+//! Assumed of what comes from outside: see [`super`], "What is assumed".
+
+use crate::isa::{ResultModifier, ShaderKind, SourceModifier, WriteMask};
+use crate::kernel::{Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use std::collections::HashMap;
+
+/// The largest magnitude of inputs, coordinates, vertex constants and stage states.
+const OUTSIDE: f64 = 65536.0;
+/// A number that may be infinite or NaN.
+const UNBOUNDED: f64 = f64::INFINITY;
+const LARGEST: f64 = f32::MAX as f64;
+
+/// One component of a register at one moment: slot, component, how often it had been written.
+type Moment = (Slot, usize, u32);
+
+/// What is known about a component beside its magnitude, for the sake of normalised vectors.
+#[derive(Clone, Debug, PartialEq)]
+enum Fact {
+    /// It is the sum of the squares of these.
+    Square(Vec<Moment>),
+    /// It is 1 over the root of the sum of the squares of these.
+    InverseLength(Vec<Moment>),
+    /// It is one of these over the root of the sum of their squares.
+    Unit(Vec<Moment>),
+}
+
+/// What one slot of an operand may hold.
+#[derive(Clone, Copy, Debug)]
+struct Factor {
+    most: f64,
+    zero: bool,
+}
+
+/// The bounds of all registers between two steps.
+#[derive(Clone, Debug)]
+pub(super) struct Magnitudes {
+    kind: ShaderKind,
+    most: [[f64; 4]; SLOT_COUNT],
+    writes: [[u32; 4]; SLOT_COUNT],
+    facts: Vec<[Option<Fact>; 4]>,
+    /// The constants whose values are known.
+    known: HashMap<u32, [f32; 4]>,
+    /// The largest magnitude of a texel of each stage.
+    texels: [f64; 8],
+}
+
+/// What a step leaves behind.
+pub(super) struct Outcome {
+    most: [f64; 4],
+    facts: [Option<Fact>; 4],
+}
+
+impl Magnitudes {
+    pub(super) fn new(
+        kind: ShaderKind,
+        known: HashMap<u32, [f32; 4]>,
+        wide_texels: [bool; 8],
+    ) -> Self {
+        let mut most = [[0.0; 4]; SLOT_COUNT];
+        let inputs = (0..16).filter_map(Slot::input);
+        let input = match kind {
+            ShaderKind::Vertex => OUTSIDE,
+            ShaderKind::Pixel => 1.0,
+        };
+        inputs.for_each(|slot| most[slot.index()] = [input; 4]);
+        let sets = (0..8).filter_map(Slot::texcoord);
+        sets.for_each(|slot| most[slot.index()] = [OUTSIDE; 4]);
+        Self {
+            kind,
+            most,
+            writes: [[0; 4]; SLOT_COUNT],
+            facts: vec![[const { None }; 4]; SLOT_COUNT],
+            known,
+            texels: wide_texels.map(|wide| if wide { OUTSIDE } else { 1.0 }),
+        }
+    }
+
+    fn factor(&self, operand: &Operand, slot: usize) -> Factor {
+        let component = operand.swizzle.slot(slot);
+        let most = match operand.place {
+            Place::Slot(slot) => self.most[slot.index()][component],
+            Place::Literal(number) => f64::from(number.abs()),
+            Place::Constant(index) => match self.known.get(&index) {
+                Some(value) if value[component].is_finite() => f64::from(value[component].abs()),
+                Some(_) => UNBOUNDED,
+                None if self.kind == ShaderKind::Pixel => 1.0,
+                None => OUTSIDE,
+            },
+            Place::Relative(_) => OUTSIDE,
+        };
+        let modified = match operand.modifier {
+            SourceModifier::Bias | SourceModifier::BiasNegate => most + 0.5,
+            SourceModifier::Bx2 | SourceModifier::Bx2Negate => 2.0 * most + 1.0,
+            SourceModifier::Complement => most + 1.0,
+            SourceModifier::X2 | SourceModifier::X2Negate => 2.0 * most,
+            SourceModifier::None
+            | SourceModifier::Negate
+            | SourceModifier::Dz
+            | SourceModifier::Dw => most,
+        };
+        let known = match operand.place {
+            Place::Constant(index) => self.known.contains_key(&index),
+            Place::Literal(_) => true,
+            Place::Slot(_) | Place::Relative(_) => false,
+        };
+        let plain = matches!(
+            operand.modifier,
+            SourceModifier::None | SourceModifier::Negate
+        );
+        Factor {
+            most: limited(modified),
+            zero: !(known && plain && most > 0.0),
+        }
+    }
+
+    /// The factors of the products of a step, pair by pair.
+    fn products(&self, step: &Step) -> Vec<(Factor, Factor)> {
+        let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
+            return Vec::new();
+        };
+        let pairs = |slots: WriteMask, a: &Operand, b: &Operand| -> Vec<_> {
+            (slots.components())
+                .map(|slot| (self.factor(a, slot), self.factor(b, slot)))
+                .collect()
+        };
+        match step.op {
+            Op::Mul | Op::Mad => pairs(step.mask, a, b),
+            Op::Dp3 => pairs(WriteMask::XYZ, a, b),
+            Op::Dp4 => pairs(WriteMask::ALL, a, b),
+            Op::Dst => pairs(WriteMask::Y.and(step.mask), a, b),
+            Op::Lrp => {
+                let mut both = pairs(step.mask, a, b);
+                if let Some(c) = step.sources.get(2) {
+                    both.extend(step.mask.components().map(|slot| {
+                        let a = self.factor(a, slot);
+                        let rest = Factor {
+                            most: limited(a.most + 1.0),
+                            zero: true,
+                        };
+                        (rest, self.factor(c, slot))
+                    }));
+                }
+                both
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether a step needs products that are guarded against a factor of 0.
+    pub(super) fn needs_guard(&self, step: &Step) -> bool {
+        (self.products(step).iter())
+            .any(|(a, b)| (a.most == UNBOUNDED && b.zero) || (b.most == UNBOUNDED && a.zero))
+    }
+
+    /// Whether no slot of an operand that the mask has is infinite or NaN.
+    pub(super) fn is_finite(&self, operand: &Operand, slots: WriteMask) -> bool {
+        (slots.components()).all(|slot| self.factor(operand, slot).most < UNBOUNDED)
+    }
+
+    /// What a step leaves behind if it runs now.
+    pub(super) fn outcome(&self, step: &Step) -> Outcome {
+        let scale = 2f64.powi(step.result.shift.into());
+        let mut most = [0.0; 4];
+        for component in step.mask.components() {
+            let bound = limited(self.bound(step, component) * scale);
+            most[component] = if step.result.saturate { 1.0 } else { bound };
+        }
+        let facts = std::array::from_fn(|component| {
+            let written = step.mask.has(component);
+            written.then(|| self.fact(step, component)).flatten()
+        });
+        Outcome { most, facts }
+    }
+
+    /// Writes what a step left behind.
+    pub(super) fn write(&mut self, step: &Step, outcome: Outcome) {
+        let at = step.destination.index();
+        for (component, fact) in outcome.facts.into_iter().enumerate() {
+            if step.mask.has(component) {
+                self.most[at][component] = outcome.most[component];
+                self.writes[at][component] += 1;
+                self.facts[at][component] = fact;
+            }
+        }
+    }
+
+    fn bound(&self, step: &Step, component: usize) -> f64 {
+        let of = |i: usize, slot: usize| {
+            (step.sources.get(i)).map_or(UNBOUNDED, |operand| self.factor(operand, slot).most)
+        };
+        let product = |a: f64, b: f64| limited(if a == 0.0 || b == 0.0 { 0.0 } else { a * b });
+        let (a, b, c) = (of(0, component), of(1, component), of(2, component));
+        let scalar = of(0, 0);
+        let dot = |n: usize| {
+            let sum = (0..n).map(|i| product(of(0, i), of(1, i))).sum::<f64>();
+            // No more than the product of the lengths.
+            limited(sum).min(product(self.length(step, 0, n), self.length(step, 1, n)))
+        };
+        match step.op {
+            Op::Mov => a,
+            Op::Add | Op::Sub => a + b,
+            Op::Mul if self.normalised(step, component).is_some() => 1.0,
+            Op::Mul => product(a, b),
+            Op::Mad => product(a, b) + c,
+            Op::Lrp => product(a, b) + product(a + 1.0, c),
+            Op::Min | Op::Max => a.max(b),
+            Op::Cnd | Op::Cmp => b.max(c),
+            Op::Slt | Op::Sge | Op::Depth => 1.0,
+            Op::Frc if a < UNBOUNDED => 1.0,
+            Op::Frc => UNBOUNDED,
+            Op::Floor => a,
+            Op::Dp3 => dot(3),
+            Op::Dp4 => dot(4),
+            Op::Rcp | Op::Rsq | Op::Log if scalar < UNBOUNDED => LARGEST,
+            Op::Rcp | Op::Rsq | Op::Log => UNBOUNDED,
+            Op::Exp => scalar.exp2(),
+            Op::ExpP => [scalar.exp2(), 1.0, scalar.exp2(), 1.0][component],
+            Op::LogP if scalar < UNBOUNDED => [LARGEST, 2.0, LARGEST, 1.0][component],
+            Op::LogP => UNBOUNDED,
+            Op::Lit => [1.0, scalar, self.specular(step), 1.0][component],
+            Op::Dst => [1.0, product(of(0, 1), of(1, 1)), of(0, 2), of(1, 3)][component],
+            Op::Bump(_) => a + OUTSIDE * (of(1, 0) + of(1, 1)),
+            Op::Luminance(_) => product(a, OUTSIDE * of(1, 2) + OUTSIDE),
+            Op::Sample(stage) => self.texels[usize::from(stage) & 7],
+            Op::DivideZ | Op::DivideW | Op::Reflect | Op::Kill => UNBOUNDED,
+        }
+    }
+
+    /// The bound of the specular term of `lit`: finite where the power is known not to be negative.
+    fn specular(&self, step: &Step) -> f64 {
+        let Some(source) = step.sources.first() else {
+            return UNBOUNDED;
+        };
+        let power = match (source.place, source.modifier) {
+            (Place::Constant(index), SourceModifier::None) => (self.known.get(&index))
+                .map(|value| f64::from(value[source.swizzle.slot(3)]))
+                .filter(|power| *power >= 0.0),
+            _ => None,
+        };
+        match power {
+            Some(power) => self.factor(source, 1).most.powf(power.min(128.0)).max(1.0),
+            None => UNBOUNDED,
+        }
+    }
+
+    fn moments(&self, operand: &Operand, slots: WriteMask) -> Option<Vec<Moment>> {
+        let Place::Slot(slot) = operand.place else {
+            return None;
+        };
+        let moments = slots.components().map(|at| {
+            let component = operand.swizzle.slot(at);
+            (slot, component, self.writes[slot.index()][component])
+        });
+        Some(moments.collect())
+    }
+
+    /// What a step tells about a component that it writes.
+    fn fact(&self, step: &Step, component: usize) -> Option<Fact> {
+        if step.result != ResultModifier::NONE {
+            return None;
+        }
+        let first = step.sources.first()?;
+        match step.op {
+            Op::Dp3 | Op::Dp4
+                if step.sources.get(1) == Some(first) && first.modifier == SourceModifier::None =>
+            {
+                let slots = step.op.slots_read(0, step.mask);
+                self.moments(first, slots).map(Fact::Square)
+            }
+            Op::Rsq if first.modifier == SourceModifier::None => match self.known_of(first, 0) {
+                Some(Fact::Square(of)) => Some(Fact::InverseLength(of.clone())),
+                _ => None,
+            },
+            Op::Mul => self.normalised(step, component).cloned().map(Fact::Unit),
+            _ => None,
+        }
+    }
+
+    /// What is known about the component that an operand reads into a slot.
+    fn known_of(&self, operand: &Operand, slot: usize) -> Option<&Fact> {
+        match operand.place {
+            Place::Slot(register) => {
+                self.facts[register.index()][operand.swizzle.slot(slot)].as_ref()
+            }
+            _ => None,
+        }
+    }
+
+    /// The vector of which a product is a component divided by the vector's length.
+    fn normalised(&self, step: &Step, component: usize) -> Option<&Vec<Moment>> {
+        let [a, b] = step.sources.as_slice() else {
+            return None;
+        };
+        let one_way = |vector: &Operand, length: &Operand| {
+            let Some(Fact::InverseLength(of)) = self.known_of(length, component) else {
+                return None;
+            };
+            let part = self.moments(vector, WriteMask::component(component))?;
+            let plain = is_plain(vector) && is_plain(length);
+            (plain && part.iter().all(|moment| of.contains(moment))).then_some(of)
+        };
+        one_way(a, b).or_else(|| one_way(b, a))
+    }
+
+    /// The greatest length of the vector that a step reads from source `i`, of `n` components.
+    fn length(&self, step: &Step, i: usize, n: usize) -> f64 {
+        let Some(operand) = step.sources.get(i) else {
+            return UNBOUNDED;
+        };
+        let distinct = WriteMask::from_bits((1 << n) - 1);
+        let distinct = operand.swizzle.reads(distinct).count() as usize == n;
+        let first = self.known_of(operand, 0);
+        let unit = matches!(first, Some(Fact::Unit(_)))
+            && (1..n).all(|slot| self.known_of(operand, slot) == first);
+        if unit && distinct && is_plain(operand) {
+            return 1.0;
+        }
+        let squares = (0..n).map(|slot| self.factor(operand, slot).most.powi(2));
+        limited(squares.sum::<f64>().sqrt())
+    }
+}
+
+fn is_plain(operand: &Operand) -> bool {
+    matches!(
+        operand.modifier,
+        SourceModifier::None | SourceModifier::Negate
+    )
+}
+
+/// What is larger than any finite number may be infinite.
+fn limited(bound: f64) -> f64 {
+    // Written so that NaN, which sums of infinities could be, counts as unbounded too.
+    if bound <= LARGEST { bound } else { UNBOUNDED }
+}

@@ -1,0 +1,387 @@
+//! What each step of a kernel becomes: one arm an operation, with the meaning of [`crate::semantics`].
+
+use super::body::{Body, slots_read};
+use super::expression::{Binding, Expression, Value};
+use super::helper::Helper;
+use super::layout::Field;
+use crate::isa::WriteMask;
+use crate::isa::operand::XYZW;
+use crate::kernel::{Op, Place, Step};
+use crate::texture::{AddressMode, Filter, TextureKind};
+
+impl Body<'_> {
+    /// The value that a step computes, before its result modifier: as many components as the mask has, or a scalar.
+    pub(super) fn value(&mut self, step: &Step) -> Value {
+        let mask = step.mask;
+        let width = mask.count() as usize;
+        // Sources by number; every step has as many as its operation reads.
+        let source = |body: &mut Self, i: usize| match step.sources.get(i) {
+            Some(operand) => body.operand(operand, slots_read(step.op, step.mask, i, body.options)),
+            None => Expression::number("0.0"),
+        };
+        let one = |body: &mut Self, i: usize, slot: usize| match step.sources.get(i) {
+            Some(operand) => body.operand(operand, WriteMask::component(slot)),
+            None => Expression::number("0.0"),
+        };
+        let guard = self.magnitudes.needs_guard(step);
+        let whole = match step.op {
+            Op::Mov => source(self, 0),
+            Op::Add => source(self, 0).plus(&source(self, 1)),
+            Op::Sub => source(self, 0).minus(&source(self, 1)),
+            Op::Mul => {
+                let (a, b) = (source(self, 0), source(self, 1));
+                self.product(guard, &a, &b)
+            }
+            Op::Mad => {
+                let (a, b) = (source(self, 0), source(self, 1));
+                self.product(guard, &a, &b).plus(&source(self, 2))
+            }
+            Op::Lrp => {
+                let (a, b, c) = (source(self, 0), source(self, 1), source(self, 2));
+                let rest = Expression::number("1.0").minus(&a);
+                let first = self.product(guard, &a, &b);
+                first.plus(&self.product(guard, &rest, &c))
+            }
+            Op::Min => self.extreme(step, "min", "<"),
+            Op::Max => self.extreme(step, "max", ">="),
+            Op::Slt => truth(&source(self, 0), "<", &source(self, 1)),
+            Op::Sge => truth(&source(self, 0), ">=", &source(self, 1)),
+            Op::Frc => {
+                let a = source(self, 0);
+                a.minus(&a.map("floor"))
+            }
+            Op::Floor => Expression::call("i32", &[source(self, 0).map("floor").text], 1),
+            Op::Cnd | Op::Cmp => {
+                let (operator, bound) = match step.op {
+                    Op::Cnd => (">", "0.5"),
+                    _ => (">=", "0.0"),
+                };
+                let (a, b, c) = (source(self, 0), source(self, 1), source(self, 2));
+                let test = a.compared(operator, &Expression::number(bound));
+                choice(&c, &b, &test)
+            }
+            Op::Dp3 => self.dot(step, guard, 3),
+            Op::Dp4 => self.dot(step, guard, 4),
+            Op::Rcp => {
+                let x = source(self, 0);
+                self.called(Helper::Rcp, &[x], 1)
+            }
+            Op::Rsq => {
+                let x = source(self, 0);
+                self.called(Helper::Rsq, &[x], 1)
+            }
+            Op::Log => {
+                let x = source(self, 0);
+                self.called(Helper::Log2, &[x], 1)
+            }
+            Op::Exp => source(self, 0).map("exp2"),
+            Op::ExpP => return self.partial_powers(step),
+            Op::LogP => {
+                let x = source(self, 0);
+                let all = self.called(Helper::LogP, &[x], 4);
+                components(&all, mask)
+            }
+            Op::Lit => {
+                let arguments = [one(self, 0, 0), one(self, 0, 1), one(self, 0, 3)];
+                let all = self.called(Helper::Lit, &arguments, 4);
+                components(&all, mask)
+            }
+            Op::Dst => {
+                let part = |component: usize| match component {
+                    0 => Expression::number("1.0"),
+                    1 => {
+                        let (a, b) = (one(self, 0, 1), one(self, 1, 1));
+                        self.product(guard, &a, &b)
+                    }
+                    2 => one(self, 0, 2),
+                    _ => one(self, 1, 3),
+                };
+                return Value::Parts(mask.components().map(part).collect());
+            }
+            Op::DivideZ | Op::DivideW => {
+                let divisor = if step.op == Op::DivideZ { 2 } else { 3 };
+                let xy = match step.sources.first() {
+                    Some(operand) => self.operand(operand, WriteMask::XY),
+                    None => Expression::number("0.0"),
+                };
+                let arguments = [xy.spread(2), one(self, 0, divisor)];
+                let xy = self.called(Helper::Divide, &arguments, 2);
+                planar(
+                    xy,
+                    mask,
+                    [Expression::number("0.0"), Expression::number("0.0")],
+                )
+            }
+            Op::Bump(stage) => {
+                let (at, du, dv) = match step.sources.first() {
+                    Some(operand) => {
+                        let at = self.operand(operand, WriteMask::XY);
+                        (at, one(self, 1, 0), one(self, 1, 1))
+                    }
+                    None => return Value::Whole(Expression::number("0.0")),
+                };
+                let matrix = self.uniform(Field::Bump(stage));
+                let row = |swizzle: &str| Expression::new(format!("{matrix}.{swizzle}"), 2);
+                let offset = row("xy").times(&du).plus(&row("zw").times(&dv));
+                let offset = Expression::new(format!("({})", offset.text), 2);
+                let xy = at.plus(&offset);
+                let rest = [2, 3].map(|slot| {
+                    if mask.has(slot) {
+                        one(self, 0, slot)
+                    } else {
+                        Expression::number("0.0")
+                    }
+                });
+                planar(xy, mask, rest)
+            }
+            Op::Luminance(stage) => {
+                let (a, l) = (source(self, 0), one(self, 1, 2));
+                let state = self.uniform(Field::Luminance(stage));
+                let part = |c: &str| Expression::new(format!("{state}.{c}"), 1);
+                a.times(&l.times(&part("x")).plus(&part("y")))
+            }
+            Op::Reflect => {
+                let arguments = [source(self, 0).spread(3), source(self, 1).spread(3)];
+                let all = self.called(Helper::Mirror, &arguments, 3);
+                components(&all, mask)
+            }
+            Op::Depth => {
+                let (z, w) = (one(self, 0, 0), one(self, 0, 1));
+                let quotient = format!("saturate({} / {})", z.text, w.text);
+                let test = format!("{} == 0.0", w.text);
+                Expression::call("select", &[quotient, "1.0".into(), test], 1)
+            }
+            Op::Sample(_) | Op::Kill => Expression::number("0.0"),
+        };
+        debug_assert!(whole.width == 1 || whole.width == width, "{step:?}");
+        Value::Whole(whole)
+    }
+
+    fn called(&mut self, helper: Helper, arguments: &[Expression], width: usize) -> Expression {
+        let name = self.helpers.call(helper);
+        let arguments: Vec<String> = arguments.iter().map(|a| a.text.clone()).collect();
+        Expression::call(&name, &arguments, width)
+    }
+
+    fn product(&mut self, guard: bool, a: &Expression, b: &Expression) -> Expression {
+        if !guard {
+            return a.times(b);
+        }
+        let width = a.width.max(b.width);
+        let factors = [a.spread(width), b.spread(width)];
+        self.called(Helper::MulZero(width), &factors, width)
+    }
+
+    fn dot(&mut self, step: &Step, guard: bool, width: usize) -> Expression {
+        let slots = step.op.slots_read(0, step.mask);
+        let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
+            return Expression::number("0.0");
+        };
+        let vectors = [a, b].map(|operand| self.operand(operand, slots).spread(width));
+        match (guard, self.options.exact_dots) {
+            (true, _) => self.called(Helper::DotZero(width), &vectors, 1),
+            (false, true) => self.called(Helper::Dot(width), &vectors, 1),
+            (false, false) => Expression::call("dot", &vectors.map(|v| v.text), 1),
+        }
+    }
+
+    /// `min` or `max`. Where an operand may be NaN the second one is what comes out, which WGSL does not promise.
+    fn extreme(&mut self, step: &Step, function: &str, operator: &str) -> Expression {
+        let [a, b] = step.sources.as_slice() else {
+            return Expression::number("0.0");
+        };
+        let finite = [a, b]
+            .iter()
+            .all(|s| self.magnitudes.is_finite(s, step.mask));
+        let (a, b) = (self.operand(a, step.mask), self.operand(b, step.mask));
+        let width = a.width.max(b.width);
+        let (a, b) = (a.spread(width), b.spread(width));
+        if finite {
+            return Expression::call(function, &[a.text, b.text], width);
+        }
+        choice(&b, &a, &a.compared(operator, &b))
+    }
+
+    /// `expp`, each component for itself unless the function for all of them is shorter.
+    fn partial_powers(&mut self, step: &Step) -> Value {
+        let Some(operand) = step.sources.first() else {
+            return Value::Whole(Expression::number("0.0"));
+        };
+        let finite = self.magnitudes.is_finite(operand, WriteMask::X);
+        if step.mask.has(2) || (step.mask.has(1) && !finite) {
+            let x = self.operand(operand, WriteMask::X);
+            let all = self.called(Helper::ExpP, &[x], 4);
+            return Value::Whole(components(&all, step.mask));
+        }
+        let part = |component: usize| {
+            if component == 3 {
+                return Expression::number("1.0");
+            }
+            let x = self.operand(operand, WriteMask::X);
+            let whole = x.map("floor");
+            if component == 0 {
+                whole.map("exp2")
+            } else {
+                x.minus(&whole)
+            }
+        };
+        Value::Parts(step.mask.components().map(part).collect())
+    }
+
+    /// A sample, with the address modes that WebGPU does not have.
+    pub(super) fn sample(&mut self, step: &Step, stage: u8) {
+        let state = self.options.stages[usize::from(stage) & 7];
+        let finish = |texel: Expression| {
+            let texel = components(&texel, step.mask);
+            Value::Whole(texel).finished(step.result)
+        };
+        let (Some(kind), Some(operand)) = (state.texture, step.sources.first()) else {
+            let black = Expression::new("vec4f(0.0, 0.0, 0.0, 1.0)", 4);
+            return self.assign(step.destination, step.mask, finish(black));
+        };
+        let count = state.coordinates();
+        let slots = slots_read(step.op, step.mask, 0, self.options);
+        let at = self.coordinates(operand, slots).spread(count);
+        let axes = match kind {
+            TextureKind::Cube => &[][..],
+            _ => &state.address[..count],
+        };
+        let border = axes.contains(&AddressMode::Border);
+        let mirrored = axes.contains(&AddressMode::MirrorOnce);
+        let in_parts = mirrored && axes.iter().any(|mode| *mode != AddressMode::MirrorOnce);
+        let open = border || in_parts;
+        let mut at = at;
+        if open {
+            self.push("{");
+            self.push(format!("    let at = {};", at.text));
+            at = Expression::new("at", count);
+        }
+        if mirrored && !in_parts {
+            at = at.map("abs");
+        } else if in_parts {
+            let parts = axes.iter().zip(XYZW).map(|(mode, axis)| match mode {
+                AddressMode::MirrorOnce => format!("abs(at.{axis})"),
+                _ => format!("at.{axis}"),
+            });
+            at = Expression::call(&format!("vec{count}f"), &parts.collect::<Vec<_>>(), count);
+        }
+        let mut texel = self.texel(stage, &at);
+        if border {
+            let inside = self.inside(stage, axes, state.filter);
+            self.push(format!("    let inside = {inside};"));
+            let color = self.uniform(Field::Border(stage));
+            texel = Expression::new(
+                format!("(inside * {} + (1.0 - inside) * {color})", texel.text),
+                4,
+            );
+        }
+        let before = self.mark();
+        self.assign(step.destination, step.mask, finish(texel));
+        if open {
+            self.indent_from(before);
+            self.push("}");
+        }
+    }
+
+    /// Coordinates are named x, y and z, whatever register holds them.
+    fn coordinates(&mut self, operand: &crate::kernel::Operand, slots: WriteMask) -> Expression {
+        let Place::Slot(slot) = operand.place else {
+            return self.operand(operand, slots);
+        };
+        let components: Vec<usize> = slots
+            .components()
+            .map(|s| operand.swizzle.slot(s))
+            .collect();
+        let (name, width) = (self.name(slot), self.width(slot));
+        super::body::select(name, width, &components, XYZW).modified(operand.modifier)
+    }
+
+    /// The call that reads a texture.
+    fn texel(&mut self, stage: u8, at: &Expression) -> Expression {
+        let state = self.options.stages[usize::from(stage) & 7];
+        let mut arguments = vec![
+            format!("texture{stage}"),
+            format!("sampler{stage}"),
+            at.text.clone(),
+        ];
+        if state.lod_bias {
+            let bias = self.uniform(Field::LodBias(stage));
+            arguments.push(bias);
+        }
+        let function = match (state.separate_faces(), state.lod_bias) {
+            (false, false) => "textureSample".to_string(),
+            (false, true) => "textureSampleBias".to_string(),
+            (true, false) => self.helpers.call(Helper::SampleFaces),
+            (true, true) => self.helpers.call(Helper::SampleFacesBias),
+        };
+        Expression::call(&function, &arguments, 4)
+    }
+
+    /// The share of a sample that lies inside the texture along the axes that have a border.
+    fn inside(&mut self, stage: u8, axes: &[AddressMode], filter: Filter) -> String {
+        let factors = axes
+            .iter()
+            .zip(XYZW)
+            .filter(|(mode, _)| **mode == AddressMode::Border);
+        let factors: Vec<String> = factors
+            .map(|(_, axis)| match filter {
+                Filter::Point => format!("{}(at.{axis})", self.helpers.call(Helper::InsidePoint)),
+                _ => format!(
+                    "{}(at.{axis}, textureDimensions(texture{stage}).{axis})",
+                    self.helpers.call(Helper::InsideLinear)
+                ),
+            })
+            .collect();
+        factors.join(" * ")
+    }
+}
+
+/// The components of a vector that the mask has.
+fn components(vector: &Expression, mask: WriteMask) -> Expression {
+    let wanted: Vec<usize> = mask.components().collect();
+    if wanted.iter().copied().eq(0..vector.width) {
+        return vector.clone();
+    }
+    let name = vector.within(Binding::Primary);
+    super::body::select(name, vector.width, &wanted, XYZW)
+}
+
+/// 1 where a comparison holds, else 0.
+fn truth(a: &Expression, operator: &str, b: &Expression) -> Expression {
+    let test = a.compared(operator, b);
+    let number = match test.width {
+        1 => "f32".to_string(),
+        width => format!("vec{width}f"),
+    };
+    Expression::call(&number, &[test.text], test.width)
+}
+
+/// `yes` where a comparison holds, else `no`.
+fn choice(no: &Expression, yes: &Expression, test: &Expression) -> Expression {
+    let width = no.width.max(yes.width).max(test.width);
+    let arguments = [
+        no.spread(width).text,
+        yes.spread(width).text,
+        test.text.clone(),
+    ];
+    Expression::call("select", &arguments, width)
+}
+
+/// x and y with the third and fourth component where the mask has them.
+fn planar(xy: Expression, mask: WriteMask, rest: [Expression; 2]) -> Expression {
+    let [z, w] = rest;
+    let plane = components(&xy, mask.and(WriteMask::XY));
+    let extra = [(2, z), (3, w)].into_iter().filter(|(c, _)| mask.has(*c));
+    let mut parts: Vec<String> = extra.map(|(_, part)| part.text).collect();
+    if mask.and(WriteMask::XY) == WriteMask::XY && parts.is_empty() {
+        return xy;
+    }
+    if !mask.and(WriteMask::XY).is_empty() {
+        parts.insert(0, plane.text);
+    }
+    let width = mask.count() as usize;
+    match parts.as_slice() {
+        [only] if width == 1 => Expression::new(only.clone(), 1),
+        _ => Expression::call(&format!("vec{width}f"), &parts, width),
+    }
+}

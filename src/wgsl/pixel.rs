@@ -1,0 +1,125 @@
+//! The pixel entry point.
+
+use super::body::Body;
+use super::expression::Expression;
+use super::helper::Helper;
+use super::layout::Field;
+use super::options::Fog;
+use super::varyings::Varyings;
+use crate::raster::{Compare, FogDistance, FogMode};
+
+/// The structure of what the stage returns, if that is more than a colour.
+pub(super) fn output_structure(writes_depth: bool) -> Option<&'static str> {
+    writes_depth.then_some(
+        "struct PixelOutput {\n    @location(0) color: vec4f,\n    @builtin(frag_depth) depth: f32,\n}\n",
+    )
+}
+
+/// The head of the function. The body is complete afterwards.
+pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
+    body.statements();
+    let mark = body.mark();
+    tests(body, varyings);
+    if let Some(fog) = body.options.fog {
+        apply_fog(body, fog);
+    }
+    if body.mark() > mark {
+        body.insert_blank(mark);
+    }
+    let depth = body.stage.kernel.writes_depth();
+    body.push(if depth {
+        "return PixelOutput(r0, depth);"
+    } else {
+        "return r0;"
+    });
+    let parameter = match reads_inputs(varyings) {
+        true => "in: Varyings",
+        false => "",
+    };
+    let result = if depth {
+        "PixelOutput"
+    } else {
+        "@location(0) vec4f"
+    };
+    let name = &body.options.pixel_entry;
+    format!("@fragment\nfn {name}({parameter}) -> {result} {{\n")
+}
+
+/// Whether the function has a parameter: the vertex stage always gives a position, which only table fog looks at.
+fn reads_inputs(varyings: &Varyings) -> bool {
+    varyings.position || !varyings.list().is_empty()
+}
+
+/// Everything that takes the pixel out, behind all sampling, which must not come after it.
+fn tests(body: &mut Body<'_>, varyings: &Varyings) {
+    let mut conditions = Vec::new();
+    if body.stage.kernel.kills() {
+        conditions.push("killed".to_string());
+    }
+    for first in (0..varyings.clip).step_by(4) {
+        conditions.push(format!("any(in.clip{} < vec4f())", first / 4));
+    }
+    if let Some(alpha) = body
+        .options
+        .alpha_test
+        .and_then(|compare| alpha_fails(body, compare))
+    {
+        conditions.push(alpha);
+    }
+    if conditions.iter().any(|condition| condition == "true") {
+        conditions = vec!["true".into()];
+    }
+    if !conditions.is_empty() {
+        body.note_discard();
+        body.push(format!("if {} {{", conditions.join(" || ")));
+        body.push("    discard;");
+        body.push("}");
+    }
+}
+
+/// The condition under which the alpha test takes the pixel out, in 8 bits as the target has them.
+fn alpha_fails(body: &mut Body<'_>, compare: Compare) -> Option<String> {
+    let fails = match compare {
+        Compare::Always => return None,
+        Compare::Never => return Some("true".into()),
+        Compare::Less => ">=",
+        Compare::Equal => "!=",
+        Compare::LessEqual => ">",
+        Compare::Greater => "<=",
+        Compare::NotEqual => "==",
+        Compare::GreaterEqual => "<",
+    };
+    let reference = body.uniform(Field::AlphaReference);
+    Some(format!("round(saturate(r0.a) * 255.0) {fails} {reference}"))
+}
+
+/// Mixes the fog in. 1 is clear.
+fn apply_fog(body: &mut Body<'_>, fog: Fog) {
+    let distance = match fog.distance {
+        FogDistance::Z => "in.position.z",
+        FogDistance::W => "(1.0 / in.position.w)",
+    };
+    let factor = match fog.table {
+        FogMode::None => "in.fog".to_string(),
+        FogMode::Exp => format!("exp(-{distance} * {})", body.uniform(Field::FogDensity)),
+        FogMode::Exp2 => {
+            let density = body.uniform(Field::FogDensity);
+            body.push(format!("let depth_of_fog = {distance} * {density};"));
+            "exp(-depth_of_fog * depth_of_fog)".into()
+        }
+        FogMode::Linear => {
+            let (start, end) = (body.uniform(Field::FogStart), body.uniform(Field::FogEnd));
+            let name = body.helpers.call(Helper::LinearFog);
+            let distance = distance
+                .trim_start_matches('(')
+                .trim_end_matches(')')
+                .to_string();
+            Expression::call(&name, &[distance, start, end], 1).text
+        }
+    };
+    let color = body.uniform(Field::FogColor);
+    body.push(format!("let clear = saturate({factor});"));
+    body.push(format!(
+        "r0 = vec4f(clear * saturate(r0.rgb) + (1.0 - clear) * {color}, r0.a);"
+    ));
+}

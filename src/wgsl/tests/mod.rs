@@ -1,0 +1,7 @@
+//! Tests of the translator.
+
+mod contract;
+mod generated;
+mod opcodes;
+mod readable;
+mod support;
