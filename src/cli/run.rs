@@ -8,7 +8,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use texcrd::diagnostic::{Diagnostic, SourceFile};
 use texcrd::policy::Dialect;
-use texcrd::raster::RegisterPicture;
+use texcrd::raster::{RegisterPicture, Target};
 use texcrd::scene::{DirectoryResolver, LoadOptions, PreparedDraw, RenderOptions, Scene};
 
 /// Renders a scene on the CPU and writes a PNG.
@@ -26,7 +26,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "SCENE")]
     scene: String,
     /// Where the picture goes; `-` is standard output.
-    #[arg(short, long, value_name = "OUT.png")]
+    #[arg(short, long, value_name = "OUT.png", value_parser = picture)]
     output: PathBuf,
     /// Width and height in pixels instead of those of the scene.
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     #[arg(
         long,
         value_name = "FACTOR",
-        default_value_t = 1.0,
+        default_value_t = 1.0, value_parser = scale,
         allow_hyphen_values = true,
         requires = "show"
     )]
@@ -62,11 +62,42 @@ pub(super) struct Arguments {
 fn size(text: &str) -> Result<[u32; 2], String> {
     let wrong = || format!("`{text}` is no size: write 1280x960");
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let number = |text: &str| text.parse().map_err(|_| wrong());
-    Ok([number(width)?, number(height)?])
+    let number = |text: &str| text.parse::<u32>().map_err(|_| wrong());
+    let size = [number(width)?, number(height)?];
+    let [pixels, most] = [
+        size.map(u64::from).iter().product(),
+        Target::MAX_PIXELS as u64,
+    ];
+    if size.contains(&0) || size.iter().any(|side| *side > Target::MAX_SIDE) || pixels > most {
+        let side = Target::MAX_SIDE;
+        return Err(format!(
+            "a picture has 1 to {side} pixels a side and at most {most} in all"
+        ));
+    }
+    Ok(size)
+}
+
+/// The value parser of `--scale`.
+fn scale(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|n: &f32| n.is_finite());
+    number.ok_or_else(|| format!("`{text}` is no number"))
+}
+
+/// The value parser of `-o`: what is written is a PNG, whatever the file is called.
+fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let other =
+        (path.extension().and_then(|e| e.to_str())).filter(|e| !e.eq_ignore_ascii_case("png"));
+    match other {
+        Some(other) if image::ImageFormat::from_extension(other).is_some() => Err(format!(
+            "a PNG is written, so the file cannot end in .{other}"
+        )),
+        _ => Ok(path),
+    }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    files::can_be_written(&arguments.output)?;
     let scene = load(arguments)?;
     let show = match &arguments.show {
         Some(show) => Some(register(arguments, show, &scene)?),
@@ -164,17 +195,18 @@ fn register(
         wrong(format!("the picture has the draws {}", names.join(", ")))
     })?;
     let program = &draw.pixel.program;
-    let slot = show
-        .slot(program.version)
-        .ok_or_else(|| wrong(format!("{} has no such register", program.version)))?;
+    let slot = show.slot(program.version).map_err(wrong)?;
     let instructions = match show.line {
         None => usize::MAX,
         Some(line) => {
             let of = |span| scene.sources().locate(span).map_or(0, |at| at.line);
-            program
-                .instructions()
-                .filter(|i| of(i.span) <= line)
-                .count()
+            let last = of(program.span.at_end());
+            if line == 0 || line > last {
+                let message = format!("the listing has the lines 1 to {last}, not {line}");
+                return Err(wrong(message));
+            }
+            let runs = program.instructions().filter(|i| of(i.span) <= line);
+            runs.count()
         }
     };
     Ok(texcrd::scene::Show {
