@@ -6,6 +6,8 @@
 //!
 //! `ARCHITECTURE.md` in the repository says which room knows of which.
 
+#[cfg(feature = "scene")]
+pub mod case;
 pub mod diagnostic;
 pub mod exec;
 #[cfg(feature = "gpu")]

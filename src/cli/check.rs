@@ -17,14 +17,15 @@ use texcrd::{listing, syntax, validate};
 #[command(after_help = "\
 Examples:
   texcrd check shader.psh
-  texcrd check --fix scanned.psh        repair what can only have been meant one way
+  texcrd check --fix scanned.psh        repair the file where only one thing can have been meant
   texcrd check --stats shader.vsh       slots used of slots allowed
-  texcrd check --format json *.psh      one object a diagnostic")]
+  texcrd check --format json *.psh      one object a diagnostic; with --stats one more a file")]
 pub(super) struct Arguments {
     /// Listings; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
-    /// Apply the repairs that are certain and leave the rest. Of standard input the repaired text is printed.
+    /// Apply the repairs that are certain and leave the rest. Files are rewritten in place; of standard input the repaired
+    /// text is printed.
     #[arg(long)]
     fix: bool,
     /// Print slots used of slots allowed, registers and stages.

@@ -1,6 +1,6 @@
 //! `compare`: a scene on both paths.
 
-use super::{Failure, Format, Outcome, dialect, print, print_json, scene};
+use super::{Failure, Format, Outcome, dialect, files, print, print_json, scene};
 use image::{Rgba, RgbaImage};
 use serde_json::json;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     tolerance: u8,
     /// Where a picture of the differences goes: black is equal, every step of 1/255 is 16 brighter.
-    #[arg(short, long, value_name = "DIFF.png")]
+    #[arg(short, long, value_name = "DIFF.png", value_parser = scene::picture)]
     output: Option<PathBuf>,
     /// Width and height in pixels instead of those of the scene.
     #[arg(long, value_name = "WxH", value_parser = scene::size)]
@@ -42,6 +42,9 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if let Some(path) = &arguments.output {
+        files::can_be_written(path)?;
+    }
     let loaded = scene::load(&arguments.scene, arguments.dialect)?;
     let device = scene::device(arguments.adapter.as_deref())?;
     let options = RenderOptions {

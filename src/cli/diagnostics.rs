@@ -101,6 +101,17 @@ impl Window {
 /// One diagnostic as the command line's contract has it.
 pub(super) fn to_json(sources: &SourceMap, diagnostic: &Diagnostic) -> serde_json::Value {
     let at = sources.locate(diagnostic.span);
+    let fix = diagnostic.fix.as_ref().map(|fix| {
+        let place = sources.locate(fix.span);
+        json!({
+            "line": place.as_ref().map(|at| at.line),
+            "column": place.as_ref().map(|at| at.column),
+            "end_line": place.as_ref().map(|at| at.end_line),
+            "end_column": place.as_ref().map(|at| at.end_column),
+            "replacement": fix.replacement,
+            "certain": fix.certain,
+        })
+    });
     json!({
         "file": at.as_ref().map(|at| at.file),
         "line": at.as_ref().map(|at| at.line),
@@ -111,6 +122,7 @@ pub(super) fn to_json(sources: &SourceMap, diagnostic: &Diagnostic) -> serde_jso
         "code": diagnostic.rule.id,
         "message": diagnostic.message,
         "help": diagnostic.help,
+        "fix": fix,
     })
 }
 

@@ -101,7 +101,7 @@ fn load(
             value(numbers).ok_or_else(|| wrong("one to four numbers stand behind the `=`"))?;
         let (file, index) =
             register(name.trim()).ok_or_else(|| wrong("v#, t# and c# can be set"))?;
-        if index >= file.count(version) {
+        if index >= most(file, version) {
             return Err(wrong(&format!(
                 "{version} has no {}",
                 file.register_name(index)
@@ -129,6 +129,14 @@ fn load(
     Ok(constants)
 }
 
+/// How many registers of a file can be set. Vertex shaders can name constants up to 255, where a device has them.
+fn most(file: RegisterFile, version: Version) -> u32 {
+    match (file, version.kind()) {
+        (RegisterFile::Const, ShaderKind::Vertex) => kernel::MOST_VERTEX_CONSTANTS,
+        _ => file.count(version),
+    }
+}
+
 fn register(name: &str) -> Option<(RegisterFile, u32)> {
     let files = [
         RegisterFile::Input,
@@ -145,6 +153,7 @@ fn register(name: &str) -> Option<(RegisterFile, u32)> {
 fn value(numbers: &str) -> Option<[f32; 4]> {
     let numbers: Vec<f32> = (numbers.split(','))
         .map(|n| n.trim().parse().ok())
+        .map(|n: Option<f32>| n.filter(|n| n.is_finite() || !numbers.contains(char::is_numeric)))
         .collect::<Option<_>>()?;
     match *numbers.as_slice() {
         [x] => Some([x; 4]),
@@ -198,12 +207,9 @@ impl Run<'_> {
             .enumerate()
             .map(|(number, instruction)| {
                 let mut registers: Vec<(Slot, WriteMask, [f32; 4])> = Vec::new();
-                for change in self
-                    .trace
-                    .changes
-                    .iter()
-                    .filter(|c| c.instruction == number)
-                {
+                let named = |slot: Slot| !slot.is_internal() || slot == Slot::DEPTH;
+                let changes = self.trace.changes.iter();
+                for change in changes.filter(|c| c.instruction == number && named(c.slot)) {
                     match registers.iter_mut().find(|(slot, ..)| *slot == change.slot) {
                         Some((_, mask, value)) => {
                             *mask = mask.or(change.mask);
@@ -239,7 +245,12 @@ impl Run<'_> {
                 let text = self.instruction_text(step.instruction);
                 out.push_str(&format!("{:>4}  {text}\n", step.line));
                 for (slot, mask, value) in &step.registers {
-                    let name = format!("{}{}", slot.name(self.kind()), self.mask(*mask));
+                    let components = if *slot == Slot::DEPTH {
+                        String::new()
+                    } else {
+                        self.mask(*mask)
+                    };
+                    let name = format!("{}{components}", slot.name(self.kind()));
                     out.push_str(&format!("      {name:<12} = {}\n", numbers(*value, *mask)));
                 }
             }
@@ -280,8 +291,12 @@ impl Run<'_> {
             let steps: Vec<Value> = self
                 .steps()
                 .map(|step| {
+                    let value = |slot: Slot, value: [f32; 4]| match slot {
+                        Slot::DEPTH => json_number(value[0]),
+                        _ => json_vector(value),
+                    };
                     let writes: Map<String, Value> = (step.registers.iter())
-                        .map(|(slot, _, value)| (slot.name(self.kind()), json_vector(*value)))
+                        .map(|(slot, _, written)| (slot.name(self.kind()), value(*slot, *written)))
                         .collect();
                     json!({
                         "line": step.line,
@@ -303,7 +318,7 @@ fn numbers(value: [f32; 4], mask: WriteMask) -> String {
 }
 
 /// JSON has no infinities and no NaN; they are written as strings.
-fn json_number(number: f32) -> Value {
+pub(super) fn json_number(number: f32) -> Value {
     let text = number.to_string();
     // Through its text, so that the shortest form that reads back to the same 32 bits is printed.
     match text.parse::<f64>() {

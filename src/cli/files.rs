@@ -24,23 +24,68 @@ pub(super) fn name(path: &str) -> &str {
     if path == "-" { "<stdin>" } else { path }
 }
 
-/// Writes a file so that it is there whole or not at all: first beside its place, then moved onto it.
+/// Writes a file so that it is there whole or not at all: first beside its place, then moved onto it. A link is
+/// followed, and a file that is replaced keeps its permissions.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |e: std::io::Error| Failure::Io(format!("{}: {e}", path.display()));
     if path == Path::new("-") {
         return std::io::stdout().write_all(bytes).map_err(failed);
     }
+    let place = target_of(path);
+    let before = fs::metadata(&place).ok();
     // Devices and pipes cannot be replaced by a file.
-    if fs::metadata(path).is_ok_and(|m| !m.is_file()) {
-        return fs::write(path, bytes).map_err(failed);
+    if before.as_ref().is_some_and(|m| !m.is_file()) {
+        return fs::write(&place, bytes).map_err(failed);
     }
-    let mut beside = path.as_os_str().to_owned();
+    if before.as_ref().is_some_and(|m| m.permissions().readonly()) {
+        return Err(failed(std::io::ErrorKind::PermissionDenied.into()));
+    }
+    let mut beside = place.as_os_str().to_owned();
     beside.push(format!(".{}.part", std::process::id()));
     let beside = PathBuf::from(beside);
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    let written = fs::write(&beside, bytes)
+        .and_then(|()| match &before {
+            Some(before) => fs::set_permissions(&beside, before.permissions()),
+            None => Ok(()),
+        })
+        .and_then(|()| fs::rename(&beside, &place));
     if written.is_err() {
         // Nothing more can be done about a part that cannot be removed either.
         let _ = fs::remove_file(&beside);
     }
     written.map_err(failed)
+}
+
+/// Where a path leads, links followed, also where nothing is yet.
+fn target_of(path: &Path) -> PathBuf {
+    // A chain of links that is longer than this runs in a circle.
+    const LONGEST: usize = 40;
+    let mut place = path.to_path_buf();
+    for _ in 0..LONGEST {
+        let Ok(next) = fs::read_link(&place) else {
+            break;
+        };
+        place = match place.parent() {
+            Some(folder) => folder.join(next),
+            None => next,
+        };
+    }
+    place
+}
+
+/// Whether a file can be written there, as far as that can be told without writing it: before long work.
+pub(super) fn can_be_written(path: &Path) -> Result<(), Failure> {
+    let place = target_of(path);
+    let folder = match place.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    if path == Path::new("-") || folder.is_dir() {
+        return Ok(());
+    }
+    let folder = folder.display();
+    Err(Failure::Io(format!(
+        "{}: there is no folder {folder}",
+        path.display()
+    )))
 }

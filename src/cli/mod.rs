@@ -13,6 +13,7 @@ mod reflect;
 mod run;
 mod scene;
 mod show;
+mod test;
 mod translate;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -30,6 +31,7 @@ Examples:
   texcrd translate shader.vsh shader.psh -o shader.wgsl
   texcrd compare asm/stained_glass/figure5.toml
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
+  texcrd test tests/conformance
 
 `-` is standard input. Exit status: 0 done, 1 the input is wrong, 2 usage or I/O.")]
 struct Arguments {
@@ -45,6 +47,7 @@ enum Command {
     Eval(eval::Arguments),
     Run(run::Arguments),
     Translate(translate::Arguments),
+    Test(test::Arguments),
 }
 
 /// How results are written.
@@ -87,6 +90,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Translate(arguments) => translate::run(&arguments),
+        Command::Test(arguments) => test::run(&arguments),
     };
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;

@@ -1,7 +1,7 @@
 //! `run`: a scene to a picture.
 
 use super::show::Show;
-use super::{Failure, Outcome, dialect, scene};
+use super::{Failure, Outcome, dialect, files, scene};
 use clap::ValueEnum;
 use image::RgbaImage;
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "SCENE")]
     scene: String,
     /// Where the picture goes; `-` is standard output.
-    #[arg(short, long, value_name = "OUT.png")]
+    #[arg(short, long, value_name = "OUT.png", value_parser = scene::picture)]
     output: PathBuf,
     /// Width and height in pixels instead of those of the scene.
     #[arg(long, value_name = "WxH", value_parser = scene::size)]
@@ -63,7 +63,7 @@ pub(super) struct Arguments {
     #[arg(
         long,
         value_name = "FACTOR",
-        default_value_t = 1.0,
+        default_value_t = 1.0, value_parser = scale,
         allow_hyphen_values = true,
         requires = "show"
     )]
@@ -71,6 +71,12 @@ pub(super) struct Arguments {
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
+}
+
+/// The value parser of `--scale`.
+fn scale(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|n: &f32| n.is_finite());
+    number.ok_or_else(|| format!("`{text}` is no number"))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -82,6 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     if arguments.on == Path::Cpu && arguments.adapter.is_some() {
         return Err(Failure::Io("--adapter: only with --on gpu".into()));
     }
+    files::can_be_written(&arguments.output)?;
     let scene = scene::load(&arguments.scene, arguments.dialect)?;
     let picture = match arguments.on {
         Path::Cpu => on_cpu(arguments, &scene)?,
@@ -129,17 +136,18 @@ fn register(
         wrong(format!("the picture has the draws {}", names.join(", ")))
     })?;
     let program = &draw.pixel.program;
-    let slot = show
-        .slot(program.version)
-        .ok_or_else(|| wrong(format!("{} has no such register", program.version)))?;
+    let slot = show.slot(program.version).map_err(wrong)?;
     let instructions = match show.line {
         None => usize::MAX,
         Some(line) => {
             let of = |span| scene.sources().locate(span).map_or(0, |at| at.line);
-            program
-                .instructions()
-                .filter(|i| of(i.span) <= line)
-                .count()
+            let last = of(program.span.at_end());
+            if line == 0 || line > last {
+                let message = format!("the listing has the lines 1 to {last}, not {line}");
+                return Err(wrong(message));
+            }
+            let runs = program.instructions().filter(|i| of(i.span) <= line);
+            runs.count()
         }
     };
     Ok(texcrd::scene::Show {

@@ -5,18 +5,43 @@ use image::RgbaImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use texcrd::diagnostic::{Diagnostic, SourceFile};
 use texcrd::gpu::{Device, GpuError, Renderer};
 use texcrd::policy::Dialect;
+use texcrd::raster::Target;
 use texcrd::scene::{DirectoryResolver, LoadOptions, Progress, Scene};
 
 /// The value parser of `--size`.
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let wrong = || format!("`{text}` is no size: write 1280x960");
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let number = |text: &str| text.parse().map_err(|_| wrong());
-    Ok([number(width)?, number(height)?])
+    let number = |text: &str| text.parse::<u32>().map_err(|_| wrong());
+    let size = [number(width)?, number(height)?];
+    let [pixels, most] = [
+        size.map(u64::from).iter().product(),
+        Target::MAX_PIXELS as u64,
+    ];
+    if size.contains(&0) || size.iter().any(|side| *side > Target::MAX_SIDE) || pixels > most {
+        let side = Target::MAX_SIDE;
+        return Err(format!(
+            "a picture has 1 to {side} pixels a side and at most {most} in all"
+        ));
+    }
+    Ok(size)
+}
+
+/// The value parser of `-o`: what is written is a PNG, whatever the file is called.
+pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let other =
+        (path.extension().and_then(|e| e.to_str())).filter(|e| !e.eq_ignore_ascii_case("png"));
+    match other {
+        Some(other) if image::ImageFormat::from_extension(other).is_some() => Err(format!(
+            "a PNG is written, so the file cannot end in .{other}"
+        )),
+        _ => Ok(path),
+    }
 }
 
 /// Reads the scene and says what is wrong with it.

@@ -62,13 +62,20 @@ impl FromStr for Show {
 impl Show {
     /// Where a pixel shader of this version has the register. Outputs of the vertex shader are shown as they reach
     /// the pixel: interpolated.
-    pub(super) fn slot(&self, version: Version) -> Option<Slot> {
+    pub(super) fn slot(&self, version: Version) -> Result<Slot, String> {
         let index = self.index as usize;
-        match self.file {
-            RegisterFile::TexCrdOut => Slot::texcoord(index),
-            RegisterFile::AttrOut => Slot::input(index).filter(|_| index < 2),
-            file => Slot::of(Register::new(file, self.index), version),
-        }
+        let (slot, whose) = match self.file {
+            RegisterFile::TexCrdOut => (Slot::texcoord(index), "a vertex shader".to_string()),
+            RegisterFile::AttrOut => {
+                let color = Slot::input(index).filter(|_| index < 2);
+                (color, "a vertex shader".to_string())
+            }
+            file => (
+                Slot::of(Register::new(file, self.index), version),
+                version.to_string(),
+            ),
+        };
+        slot.ok_or_else(|| format!("{whose} has no {}", self.file.register_name(self.index)))
     }
 
     /// What of the register is shown.
@@ -92,12 +99,13 @@ mod tests {
     #[test]
     fn registers_and_places() {
         assert_eq!(show("r2@12").line, Some(12));
-        assert_eq!(show("r2@12").slot(Version::Ps14), Slot::temp(2));
-        assert_eq!(show("r5").slot(Version::Ps11), None);
-        assert_eq!(show("oT5").slot(Version::Ps14), Slot::texcoord(5));
-        assert_eq!(show("t1").slot(Version::Ps14), Slot::texcoord(1));
-        assert_eq!(show("t1").slot(Version::Ps11), Slot::texture(1));
-        assert_eq!(show("OD1.a").slot(Version::Ps11), Slot::input(1));
+        assert_eq!(show("r2@12").slot(Version::Ps14).ok(), Slot::temp(2));
+        assert!(show("r5").slot(Version::Ps11).is_err());
+        assert!(show("oT9").slot(Version::Ps14).is_err());
+        assert_eq!(show("oT5").slot(Version::Ps14).ok(), Slot::texcoord(5));
+        assert_eq!(show("t1").slot(Version::Ps14).ok(), Slot::texcoord(1));
+        assert_eq!(show("t1").slot(Version::Ps11).ok(), Slot::texture(1));
+        assert_eq!(show("OD1.a").slot(Version::Ps11).ok(), Slot::input(1));
         assert_eq!(show("oD1.a").view(true), View::Component(3));
         assert_eq!(show("r0").view(true), View::Magnitude);
     }

@@ -2,7 +2,7 @@
 
 use crate::isa::register::VERTEX_CONSTANTS;
 use crate::isa::{RegisterFile, ShaderKind};
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, MOST_VERTEX_CONSTANTS};
 use crate::semantics::{self, BumpState};
 use crate::texture::{Sampler, Texture};
 
@@ -37,9 +37,11 @@ pub struct Stage<'a> {
 pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]> {
     let kind = kernel.version.kind();
     let count = match kind {
-        ShaderKind::Vertex => {
-            (kernel.definitions.iter().map(|(index, _)| index + 1)).fold(VERTEX_CONSTANTS, u32::max)
-        }
+        // A listing that names more than every device has gets what it names, and what is set can be addressed.
+        ShaderKind::Vertex => (kernel.constants())
+            .chain(set.iter().map(|(index, _)| *index))
+            .filter(|index| *index < MOST_VERTEX_CONSTANTS)
+            .fold(VERTEX_CONSTANTS, |count, index| count.max(index + 1)),
         ShaderKind::Pixel => RegisterFile::Const.count(kernel.version),
     };
     let mut constants = vec![[0.0; 4]; count as usize];

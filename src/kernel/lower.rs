@@ -65,11 +65,15 @@ pub fn lower(program: &Program, options: &Options) -> Result<Kernel, LowerError>
     Ok(lowering.finish())
 }
 
+/// How many constants a vertex shader can name where there are more than the 96 of every device: software vertex
+/// processing had this many.
+pub const MOST_VERTEX_CONSTANTS: u32 = 256;
+
 /// The limit of the constants that a shader can name at all.
 fn constant(version: Version, register: Register) -> Result<u32, String> {
-    // Software vertex processing had 256 registers; the 96 that every device has are the validator's business.
+    // The 96 that every device has are the validator's business.
     let count = match version.kind() {
-        ShaderKind::Vertex => 256,
+        ShaderKind::Vertex => MOST_VERTEX_CONSTANTS,
         ShaderKind::Pixel => RegisterFile::Const.count(version),
     };
     if register.index < count {

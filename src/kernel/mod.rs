@@ -15,7 +15,7 @@ mod tests;
 mod texture_ops;
 
 pub use error::LowerError;
-pub use lower::{Options, Projection, lower};
+pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use slot::{SLOT_COUNT, Slot};
 
 use crate::isa::{ResultModifier, SourceModifier, Swizzle, Version, WriteMask};

@@ -1,10 +1,10 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
-use super::pixel::{PixelBatch, PixelResult};
+use super::pixel::{LANES, PixelBatch, PixelResult};
 use super::state::{
     BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, RenderState, StencilOp,
 };
-use super::target::{ColorFormat, TILE, Tile};
+use super::target::{ColorFormat, TILE, Target, TargetTooLarge, Tile};
 use super::{fog_unit, unit};
 
 /// Red, green, blue and alpha of the four pixels of a quad.
@@ -175,14 +175,7 @@ pub(super) fn merge(
         if mask == 0 {
             continue;
         }
-        if state.fog.enable {
-            let clear: [f32; 4] = std::array::from_fn(|i| fog_factor(state, batch, lane + i));
-            for (channel, fog) in color.iter_mut().zip(state.fog.color) {
-                for (value, clear) in channel.iter_mut().zip(clear) {
-                    *value = clear * *value + (1.0 - clear) * unit(fog);
-                }
-            }
-        }
+        fog(&mut color, state, batch, lane);
         let pixels = tile_pixels(x, y);
         if state.blend.enable {
             let stored = pixels.map(|at| tile.color[at]);
@@ -207,6 +200,93 @@ pub(super) fn merge(
         }
     }
     written
+}
+
+/// Mixes fog into the colours of the quad whose first lane this is.
+#[inline]
+fn fog(color: &mut QuadColor, state: &RenderState, batch: &PixelBatch, lane: usize) {
+    if !state.fog.enable {
+        return;
+    }
+    let clear: [f32; 4] = std::array::from_fn(|i| fog_factor(state, batch, lane + i));
+    for (channel, fog) in color.iter_mut().zip(state.fog.color) {
+        for (value, clear) in channel.iter_mut().zip(clear) {
+            *value = clear * *value + (1.0 - clear) * unit(fog);
+        }
+    }
+}
+
+/// A shaded pixel on its own, before the merger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LonePixel {
+    /// `r0`.
+    pub color: [f32; 4],
+    /// Whether `texkill` took it out.
+    pub killed: bool,
+    /// The depth of the primitive, 0 to 1. Table fog uses it, whatever the shader replaces it with.
+    pub z: f32,
+    /// The depth that the shader replaces it with.
+    pub replaced_z: Option<f32>,
+    /// The w of the position.
+    pub w: f32,
+    /// The fog factor of the vertices, 0 to 1.
+    pub fog: f32,
+}
+
+/// What stands in the target after a [`LonePixel`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Merged {
+    /// The colour in 0 to 1 before it is rounded to the steps of a target.
+    pub exact: [f32; 4],
+    /// The colour as a target of 8 bits a channel stores it.
+    pub stored: [u8; 4],
+}
+
+/// Takes one pixel through fog, alpha test, depth and stencil test, blending and the colour write mask, into a target
+/// with alpha whose colour is `clear` (taken into 0 to 1), whose depth is 1 and whose stencil value is 0.
+///
+/// # Errors
+/// [`TargetTooLarge`], if the one pixel of the target should be too much.
+pub fn merge_lone(
+    state: &RenderState,
+    pixel: &LonePixel,
+    clear: [f32; 4],
+) -> Result<Merged, TargetTooLarge> {
+    let clear = clear.map(unit);
+    let mut target = Target::new(1, 1, ColorFormat::A8R8G8B8)?;
+    target.clear(Some(clear.map(to_byte)), Some(1.0), Some(0));
+    let mut batch = PixelBatch::empty();
+    batch.place(0, 0, 0, 1, &[pixel.z; 4]);
+    batch.quads = 1;
+    batch.w = [pixel.w; LANES];
+    batch.fog = [pixel.fog; LANES];
+    let mut shaded = PixelResult::new();
+    shaded.color = pixel.color.map(|channel| [channel; LANES]);
+    shaded.killed = [pixel.killed; LANES];
+    shaded.depth = [pixel.replaced_z.unwrap_or(pixel.z); LANES];
+    let timing = DepthTiming::Late {
+        reject: false,
+        replaced: true,
+    };
+    let mut written = 0;
+    if let Some(tile) = target.tiles_mut().first_mut() {
+        written = merge(tile, ColorFormat::A8R8G8B8, state, timing, &batch, &shaded);
+    }
+    let mut exact = clear;
+    if written > 0 {
+        let mut color = pixel.color.map(|channel| [unit(channel); 4]);
+        fog(&mut color, state, &batch, 0);
+        if state.blend.enable {
+            color = blend(&state.blend, &color, &clear.map(|channel| [channel; 4]));
+        }
+        for (channel, value) in exact.iter_mut().enumerate() {
+            if state.color_mask.writes(channel) {
+                *value = color[channel][0];
+            }
+        }
+    }
+    let stored = target.color(0, 0).unwrap_or_default();
+    Ok(Merged { exact, stored })
 }
 
 /// 0 to 1 as 0 to 255, to the nearest (of two equally near ones the even).

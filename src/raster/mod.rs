@@ -34,9 +34,10 @@ use crate::semantics::saturate as unit;
 
 pub use assemble::{DrawError, Topology};
 pub use cover::{Fragment, cover};
+pub use merger::{LonePixel, Merged, merge_lone};
 pub use names::UnknownName;
 pub use pixel::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader};
-pub use programmable::{PixelProgram, RegisterPicture, View, shade_vertices};
+pub use programmable::{PixelProgram, RegisterPicture, View, shade_vertices, vertex_outputs};
 pub use state::{
     AlphaTest, BlendFactor, BlendOp, BlendState, ColorMask, Compare, CullMode, DepthState,
     FillMode, FogDistance, FogMode, FogState, PointState, RenderState, ShadeMode, StencilOp,
@@ -93,6 +94,6 @@ pub struct DrawCall<'a> {
 
 /// A fog factor taken into 0 to 1; NaN is 1, which is clear.
 #[inline]
-fn fog_unit(value: f32) -> f32 {
+pub(crate) fn fog_unit(value: f32) -> f32 {
     if value < 1.0 { unit(value) } else { 1.0 }
 }

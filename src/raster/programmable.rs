@@ -37,7 +37,7 @@ pub fn shade_vertices(
             }
             machine.run(kernel, environment);
             (0..live)
-                .map(|lane| vertex(kernel, machine, lane))
+                .map(|lane| vertex_outputs(kernel, machine, lane))
                 .collect()
         })
     };
@@ -53,7 +53,11 @@ pub fn shade_vertices(
 }
 
 /// What one lane of a vertex shader leaves to the rasterizer.
-fn vertex<const N: usize>(kernel: &Kernel, machine: &Machine<N>, lane: usize) -> Vertex {
+pub fn vertex_outputs<const N: usize>(
+    kernel: &Kernel,
+    machine: &Machine<N>,
+    lane: usize,
+) -> Vertex {
     let of = |slot: Slot| Vec4::from(machine.lane(slot, lane));
     let color = |i: usize| Slot::color_output(i).map_or(Vec4::ZERO, of);
     let mut texcoords = [Vec4::ZERO; SETS];

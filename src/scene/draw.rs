@@ -174,8 +174,8 @@ pub(super) fn read(
     })
 }
 
-/// The number of a key made of a letter and a number below `count`, such as `v3`.
-fn numbered(key: &str, prefix: &str, count: usize) -> Option<usize> {
+/// The number of a key made of a prefix and a number below `count`, such as `v3`.
+pub(crate) fn numbered(key: &str, prefix: &str, count: usize) -> Option<usize> {
     let digits = key.strip_prefix(prefix)?;
     let plain = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
     plain

@@ -1,23 +1,23 @@
-//! What can be wrong with a scene, and where.
+//! What can be wrong with a scene or a shader test, and where.
 
 use std::fmt;
 use std::ops::Range;
 
 use crate::diagnostic::{Diagnostic, Rule, Severity, SourceMap, Span};
 
-/// The rules of scene files.
+/// The rules of scene files and shader tests.
 pub mod rules {
     use crate::diagnostic::Rule;
 
     /// Text that is not TOML.
     pub static SYNTAX: Rule = Rule {
         id: "F1",
-        rule: "a scene file is TOML in UTF-8",
+        rule: "a scene file is TOML in UTF-8, a shader test TOML or JSON",
     };
     /// A key that the table does not have.
     pub static KEY: Rule = Rule {
         id: "F2",
-        rule: "a table of a scene file has only the keys that the format gives it",
+        rule: "a table has only the keys that the format gives it",
     };
     /// A value of the wrong kind, shape or range.
     pub static VALUE: Rule = Rule {
@@ -42,7 +42,7 @@ pub mod rules {
     /// A file that cannot be read.
     pub static FILE: Rule = Rule {
         id: "F7",
-        rule: "the files that a scene names must be readable",
+        rule: "the files that a scene or a test names must be readable",
     };
     /// A file or a request from which nothing can be made.
     pub static CONTENT: Rule = Rule {
@@ -57,12 +57,12 @@ pub mod rules {
     /// A shader of the wrong kind, or one without a meaning.
     pub static SHADER: Rule = Rule {
         id: "F10",
-        rule: "a draw has a vertex shader and a pixel shader that can be run",
+        rule: "where a shader stands it is of the right kind and can be run",
     };
     /// More of something than a scene may have.
     pub static LIMIT: Rule = Rule {
         id: "F11",
-        rule: "a scene keeps within the limits of its format",
+        rule: "a file keeps within the limits of its format",
     };
     /// A stage that is sampled and empty.
     pub static UNBOUND: Rule = Rule {
@@ -81,7 +81,7 @@ pub mod rules {
     };
 }
 
-/// Why a scene was refused: every problem that was found, in the scene file and in the listings that it names.
+/// Why a scene or a shader test was refused: every problem that was found, in the file and in the listings that it names.
 #[derive(Clone, Debug)]
 pub struct SceneError {
     /// The scene file and the listings, for the places.
@@ -120,25 +120,25 @@ const MOST_LETTERS: usize = 1000;
 
 /// Collects problems while a scene is read.
 #[derive(Debug, Default)]
-pub(super) struct Problems {
+pub(crate) struct Problems {
     list: Vec<Diagnostic>,
     errors: usize,
 }
 
 impl Problems {
     /// The range of a value of a scene file as a span: [`super::include::parse`] has made it one of the source map.
-    pub(super) fn span(&self, range: Range<usize>) -> Span {
+    pub(crate) fn span(&self, range: Range<usize>) -> Span {
         // Source maps hold less than 4 GiB, so that no offset in them is larger.
         Span::new(range.start as u32, range.end as u32)
     }
 
     /// Whether there are so many errors that looking for more helps nobody.
-    pub(super) fn full(&self) -> bool {
+    pub(crate) fn full(&self) -> bool {
         self.errors >= MOST_ERRORS
     }
 
     /// Adds a problem, unless there are too many.
-    pub(super) fn push(&mut self, mut diagnostic: Diagnostic) {
+    pub(crate) fn push(&mut self, mut diagnostic: Diagnostic) {
         if self.full() {
             return;
         }
@@ -152,16 +152,16 @@ impl Problems {
         self.list.push(diagnostic);
     }
 
-    pub(super) fn error(&mut self, rule: &'static Rule, span: Span, message: impl Into<String>) {
+    pub(crate) fn error(&mut self, rule: &'static Rule, span: Span, message: impl Into<String>) {
         self.push(Diagnostic::error(rule, span, message));
     }
 
-    pub(super) fn warning(&mut self, rule: &'static Rule, span: Span, message: impl Into<String>) {
+    pub(crate) fn warning(&mut self, rule: &'static Rule, span: Span, message: impl Into<String>) {
         self.push(Diagnostic::warning(rule, span, message));
     }
 
     /// An error with advice, if there is any.
-    pub(super) fn error_with(
+    pub(crate) fn error_with(
         &mut self,
         rule: &'static Rule,
         span: Span,
@@ -173,12 +173,12 @@ impl Problems {
         self.push(diagnostic);
     }
 
-    pub(super) fn any_error(&self) -> bool {
+    pub(crate) fn any_error(&self) -> bool {
         self.errors > 0
     }
 
     /// The problems in the order of their places, errors before warnings at the same place.
-    pub(super) fn into_sorted(mut self) -> Vec<Diagnostic> {
+    pub(crate) fn into_sorted(mut self) -> Vec<Diagnostic> {
         self.list
             .sort_by_key(|d| (d.span.start, d.severity != Severity::Error));
         self.list
@@ -186,7 +186,7 @@ impl Problems {
 }
 
 /// The name among `known` that was probably meant by `given`: at most a third of its letters differ.
-pub(super) fn nearest<'a>(
+pub(crate) fn nearest<'a>(
     given: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
@@ -204,7 +204,7 @@ pub(super) fn nearest<'a>(
 const MOST_NAMES: usize = 40;
 
 /// `did you mean …?`, or else the list of what there is.
-pub(super) fn advice<'a>(
+pub(crate) fn advice<'a>(
     given: &str,
     known: impl IntoIterator<Item = &'a str> + Clone,
 ) -> Option<String> {
@@ -222,7 +222,7 @@ pub(super) fn advice<'a>(
 
 /// What was probably meant, for a message of `serde` about a name that it does not know: it gives the name and then the
 /// names that there are, each between backquotes.
-pub(super) fn advice_from(message: &str) -> Option<String> {
+pub(crate) fn advice_from(message: &str) -> Option<String> {
     if !message.starts_with("unknown ") {
         return None;
     }

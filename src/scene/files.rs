@@ -18,17 +18,17 @@ pub const MAX_TEXELS: u64 = 1 << 27;
 pub const MAX_SCENE_VERTICES: usize = 1 << 23;
 
 /// What reading a scene draws on.
-pub(super) struct Files<'r> {
-    pub(super) resolver: &'r dyn Resolver,
-    pub(super) sources: SourceMap,
+pub(crate) struct Files<'r> {
+    pub(crate) resolver: &'r dyn Resolver,
+    pub(crate) sources: SourceMap,
     /// Listings by the path that the scene file writes; `None` for those that cannot be used.
-    pub(super) programs: HashMap<String, Option<Arc<Program>>>,
+    pub(crate) programs: HashMap<String, Option<Arc<Program>>>,
     texels: u64,
     vertices: usize,
 }
 
 impl<'r> Files<'r> {
-    pub(super) fn new(resolver: &'r dyn Resolver) -> Self {
+    pub(crate) fn new(resolver: &'r dyn Resolver) -> Self {
         Self {
             resolver,
             sources: SourceMap::new(),
@@ -39,7 +39,7 @@ impl<'r> Files<'r> {
     }
 
     /// The bytes of a file.
-    pub(super) fn read(&self, path: &At<String>, problems: &mut Problems) -> Option<Vec<u8>> {
+    pub(crate) fn read(&self, path: &At<String>, problems: &mut Problems) -> Option<Vec<u8>> {
         match self.resolver.read(&path.value) {
             Ok(bytes) => Some(bytes),
             Err(error) => {
@@ -52,7 +52,7 @@ impl<'r> Files<'r> {
     }
 
     /// Counts texels towards [`MAX_TEXELS`]; false, and a problem, beyond it.
-    pub(super) fn take_texels(&mut self, count: u64, span: Span, problems: &mut Problems) -> bool {
+    pub(crate) fn take_texels(&mut self, count: u64, span: Span, problems: &mut Problems) -> bool {
         self.texels = self.texels.saturating_add(count);
         if self.texels <= MAX_TEXELS {
             return true;
@@ -63,7 +63,7 @@ impl<'r> Files<'r> {
     }
 
     /// Counts a texture.
-    pub(super) fn take_texture(
+    pub(crate) fn take_texture(
         &mut self,
         texture: &Texture,
         span: Span,
@@ -74,7 +74,7 @@ impl<'r> Files<'r> {
     }
 
     /// Counts a mesh towards [`MAX_SCENE_VERTICES`]; false, and a problem, beyond it.
-    pub(super) fn take_mesh(&mut self, mesh: &Mesh, span: Span, problems: &mut Problems) -> bool {
+    pub(crate) fn take_mesh(&mut self, mesh: &Mesh, span: Span, problems: &mut Problems) -> bool {
         self.vertices = self.vertices.saturating_add(mesh.vertex_count());
         if self.vertices <= MAX_SCENE_VERTICES {
             return true;
@@ -87,7 +87,7 @@ impl<'r> Files<'r> {
 }
 
 /// The part of a path behind its last dot.
-pub(super) fn extension(path: &str) -> Option<&str> {
+pub(crate) fn extension(path: &str) -> Option<&str> {
     path.rsplit(['/', '\\'])
         .next()?
         .rsplit_once('.')

@@ -12,30 +12,38 @@ use crate::diagnostic::Span;
 pub const MAX_INCLUDES: usize = 64;
 
 /// A text whose TOML brackets nest deeper is refused before it is parsed.
-const MAX_NESTING: usize = 64;
+pub(crate) const MAX_NESTING: usize = 64;
 
 /// The tables that an included file may hold: those whose entries have names.
 const SHARED: [&str; 3] = ["meshes", "textures", "targets"];
 
-/// Parses a scene file that begins at `base` of the source map. The ranges of the result are places in the map.
-pub(super) fn parse<'t>(
+/// A range of a file that begins at `base` of the source map.
+fn place(base: u32, range: std::ops::Range<usize>) -> Span {
+    // Source maps hold less than 4 GiB, so that no offset in them is larger.
+    let at = |offset: usize| base.saturating_add(offset as u32);
+    Span::new(at(range.start), at(range.end))
+}
+
+/// The text of a file that begins at `base` of the source map.
+pub(crate) fn utf8<'t>(bytes: &'t [u8], base: u32, problems: &mut Problems) -> Option<&'t str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Some(text),
+        Err(error) => {
+            let at = error.valid_up_to();
+            problems.error(&rules::SYNTAX, place(base, at..at + 1), "this is not UTF-8");
+            None
+        }
+    }
+}
+
+/// Parses a TOML file that begins at `base` of the source map. The ranges of the result are places in the map.
+pub(crate) fn parse<'t>(
     bytes: &'t [u8],
     base: u32,
     problems: &mut Problems,
 ) -> Option<DeTable<'t>> {
-    let place = |range: std::ops::Range<usize>| {
-        // Source maps hold less than 4 GiB, so that no offset in them is larger.
-        let at = |offset: usize| base.saturating_add(offset as u32);
-        Span::new(at(range.start), at(range.end))
-    };
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let at = error.valid_up_to();
-            problems.error(&rules::SYNTAX, place(at..at + 1), "this is not UTF-8");
-            return None;
-        }
-    };
+    let place = |range| place(base, range);
+    let text = utf8(bytes, base, problems)?;
     if nesting(text) > MAX_NESTING {
         let message = format!("brackets nest more than {MAX_NESTING} deep");
         problems.error(&rules::LIMIT, place(0..0), message);
@@ -68,14 +76,14 @@ fn nesting(text: &str) -> usize {
 }
 
 /// An included file.
-pub(super) struct Included {
+pub(crate) struct Included {
     bytes: Vec<u8>,
     /// Where it begins in the source map.
     base: u32,
 }
 
 /// Reads the files that `include` names.
-pub(super) fn read(
+pub(crate) fn read(
     root: &mut Section<'_>,
     files: &mut Files<'_>,
     problems: &mut Problems,
@@ -111,7 +119,7 @@ pub(super) fn read(
 }
 
 /// Adds what included files hold. Their draws come before those of the scene file.
-pub(super) fn merge<'t>(root: &mut Section<'t>, included: &'t [Included], problems: &mut Problems) {
+pub(crate) fn merge<'t>(root: &mut Section<'t>, included: &'t [Included], problems: &mut Problems) {
     let mut draws = DeArray::new();
     for file in included {
         let Some(table) = parse(&file.bytes, file.base, problems) else {

@@ -1,18 +1,15 @@
 //! From the bytes of a scene file to a [`Scene`].
 
-use toml::Spanned;
-use toml::de::DeValue;
-
 use super::draw::{self, Draw, Known, Names};
 use super::error::{Problems, SceneError, rules};
 use super::files::Files;
 use super::resolve::Resolver;
-use super::section::{At, Node, ROOT, Section};
+use super::section::{At, Node, Section};
 use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
 use super::{LoadOptions, Scene, TextureEntry, TextureSource, include, mesh};
-use crate::diagnostic::{SourceMap, Span};
+use crate::diagnostic::{Diagnostic, SourceMap, Span};
 use crate::raster;
 
 /// Most meshes, textures, targets or draws of a scene, each.
@@ -34,35 +31,63 @@ impl Scene {
         resolver: &dyn Resolver,
         options: &LoadOptions,
     ) -> Result<Self, Box<SceneError>> {
-        let mut files = Files::new(resolver);
-        let mut problems = Problems::default();
-        let (mut sources, mut scene) = (SourceMap::new(), None);
-        match files.sources.add(name, bytes) {
-            Err(error) => {
-                // The name alone, so that the message has a place.
-                if let Ok(file) = sources.add(name, Vec::new()) {
-                    problems.error(&rules::LIMIT, file.span(), error.to_string());
-                }
-            }
-            Ok(_) => {
-                // The scene file is the first of the map, so that its offsets are those of the map.
-                scene = read(bytes, options, &mut files, &mut problems);
-                sources = files.sources;
+        let loaded = load(name, bytes, resolver, |files, problems| {
+            read(bytes, options, files, problems)
+        })?;
+        Ok(Self {
+            sources: loaded.sources,
+            warnings: loaded.warnings,
+            ..loaded.value
+        })
+    }
+}
+
+/// What was read from a file without an error.
+pub(crate) struct Loaded<T> {
+    pub(crate) value: T,
+    /// The file and the listings.
+    pub(crate) sources: SourceMap,
+    pub(crate) warnings: Vec<Diagnostic>,
+}
+
+/// Reads a file and whatever it names, and collects what is wrong with any of it.
+///
+/// # Errors
+/// [`SceneError`] with every problem, if there is an error among them or `read` gives nothing.
+pub(crate) fn load<T>(
+    name: &str,
+    bytes: &[u8],
+    resolver: &dyn Resolver,
+    read: impl FnOnce(&mut Files<'_>, &mut Problems) -> Option<T>,
+) -> Result<Loaded<T>, Box<SceneError>> {
+    let mut files = Files::new(resolver);
+    let mut problems = Problems::default();
+    let (mut sources, mut value) = (SourceMap::new(), None);
+    match files.sources.add(name, bytes) {
+        Err(error) => {
+            // The name alone, so that the message has a place.
+            if let Ok(file) = sources.add(name, Vec::new()) {
+                problems.error(&rules::LIMIT, file.span(), error.to_string());
             }
         }
-        let refused = problems.any_error();
-        let diagnostics = problems.into_sorted();
-        match scene {
-            Some(mut scene) if !refused => {
-                scene.sources = sources;
-                scene.warnings = diagnostics;
-                Ok(scene)
-            }
-            _ => Err(Box::new(SceneError {
-                sources,
-                diagnostics,
-            })),
+        Ok(_) => {
+            // The file is the first of the map, so that its offsets are those of the map.
+            value = read(&mut files, &mut problems);
+            sources = files.sources;
         }
+    }
+    let refused = problems.any_error();
+    let diagnostics = problems.into_sorted();
+    match value {
+        Some(value) if !refused => Ok(Loaded {
+            value,
+            sources,
+            warnings: diagnostics,
+        }),
+        _ => Err(Box::new(SceneError {
+            sources,
+            diagnostics,
+        })),
     }
 }
 
@@ -74,7 +99,7 @@ fn read(
 ) -> Option<Scene> {
     let whole = problems.span(0..0);
     let table = include::parse(bytes, 0, problems)?;
-    let mut root = Section::new(ROOT, table, whole, problems);
+    let mut root = Section::outermost("the scene file", table, problems);
     let included = include::read(&mut root, files, problems);
     include::merge(&mut root, &included, problems);
     let size = size(&mut root, problems);
@@ -294,24 +319,8 @@ fn draw_entries<'i>(
         root.missing("at least one `[[draw]]`", problems);
         return (names, sections);
     };
-    if !matches!(node.value.get_ref(), DeValue::Array(_)) {
-        node.refuse("a list of tables, `[[draw]]`", problems);
-        return (names, sections);
-    }
-    let Node {
-        key,
-        key_span,
-        value,
-    } = node;
-    let DeValue::Array(list) = value.into_inner() else {
-        return (names, sections);
-    };
-    for (value, number) in list.into_iter().zip(1..) {
-        let node = Node {
-            key: key.clone(),
-            key_span: first_line(&value, key_span, problems),
-            value,
-        };
+    let list = node.into_list("a list of tables, `[[draw]]`", problems);
+    for (node, number) in list.into_iter().zip(1..) {
         if too_many(sections.len(), "draw", &node, problems) {
             break;
         }
@@ -329,13 +338,4 @@ fn draw_entries<'i>(
         sections.push((name, section));
     }
     (names, sections)
-}
-
-/// The place of an entry of a list of tables: its header, without the rest of its lines.
-fn first_line(value: &Spanned<DeValue<'_>>, key_span: Span, problems: &Problems) -> Span {
-    let range = value.span();
-    if range.is_empty() {
-        return key_span;
-    }
-    problems.span(range)
 }

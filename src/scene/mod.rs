@@ -9,22 +9,22 @@
 //! (its parts), `prepare` (passes), `render`; `generate` makes pictures by formula.
 
 mod constants;
-mod draw;
-mod error;
-mod files;
+pub(crate) mod draw;
+pub(crate) mod error;
+pub(crate) mod files;
 pub mod generate;
-mod include;
-mod load;
+pub(crate) mod include;
+pub(crate) mod load;
 mod mesh;
 mod prepare;
 mod render;
 mod rendered;
 mod resolve;
-mod section;
-mod shader;
-mod state;
+pub(crate) mod section;
+pub(crate) mod shader;
+pub(crate) mod state;
 mod target;
-mod texture;
+pub(crate) mod texture;
 mod transform;
 
 #[cfg(test)]

@@ -8,27 +8,24 @@ use toml::de::{DeArray, DeTable, DeValue, ValueDeserializer};
 use super::error::{Problems, advice, advice_from, rules};
 use crate::diagnostic::Span;
 
-/// What messages call the outermost table.
-pub(super) const ROOT: &str = "the scene file";
-
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct At<T> {
-    pub(super) value: T,
-    pub(super) span: Span,
+pub(crate) struct At<T> {
+    pub(crate) value: T,
+    pub(crate) span: Span,
 }
 
 /// A value of the file as TOML has it, with the key that it stands under.
 #[derive(Clone, Debug)]
-pub(super) struct Node<'i> {
-    pub(super) key: String,
-    pub(super) key_span: Span,
-    pub(super) value: Spanned<DeValue<'i>>,
+pub(crate) struct Node<'i> {
+    pub(crate) key: String,
+    pub(crate) key_span: Span,
+    pub(crate) value: Spanned<DeValue<'i>>,
 }
 
 /// A list of exactly `N` entries. (`serde` itself takes longer lists for an array and leaves the rest out.)
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Exactly<T, const N: usize>(pub(super) [T; N]);
+pub(crate) struct Exactly<T, const N: usize>(pub(crate) [T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -46,13 +43,15 @@ fn wrong_count(count: usize, wanted: usize) -> String {
 
 /// A table whose keys are taken out one by one. What is left at the end is unknown.
 #[derive(Debug)]
-pub(super) struct Section<'i> {
+pub(crate) struct Section<'i> {
     /// The table as messages call it, such as `[camera]`.
-    pub(super) title: String,
+    pub(crate) title: String,
     /// Where a key that is missing is reported.
-    pub(super) span: Span,
+    pub(crate) span: Span,
     nodes: Vec<Node<'i>>,
     asked: Vec<&'static str>,
+    /// Whether it is the outermost table.
+    outermost: bool,
 }
 
 /// What a kind of TOML value is called.
@@ -69,7 +68,7 @@ fn kind(value: &DeValue<'_>) -> &'static str {
 
 impl<'i> Section<'i> {
     /// A table; `span` is what a missing key is reported at.
-    pub(super) fn new(
+    pub(crate) fn new(
         title: impl Into<String>,
         table: DeTable<'i>,
         span: Span,
@@ -90,11 +89,24 @@ impl<'i> Section<'i> {
             span,
             nodes,
             asked: Vec::new(),
+            outermost: false,
+        }
+    }
+
+    /// The outermost table; `title` is what messages call the file.
+    pub(crate) fn outermost(
+        title: impl Into<String>,
+        table: DeTable<'i>,
+        problems: &Problems,
+    ) -> Self {
+        Self {
+            outermost: true,
+            ..Self::new(title, table, problems.span(0..0), problems)
         }
     }
 
     /// Takes a value out as it stands in the file.
-    pub(super) fn node(&mut self, key: &'static str) -> Option<Node<'i>> {
+    pub(crate) fn node(&mut self, key: &'static str) -> Option<Node<'i>> {
         self.asked.push(key);
         let at = self.nodes.iter().position(|node| node.key == key)?;
         Some(self.nodes.remove(at))
@@ -102,7 +114,7 @@ impl<'i> Section<'i> {
 
     /// Adds entries to the table under a key, in front of those that are there; a name that is there already is told.
     /// If there is no such table, it comes into being at `range`.
-    pub(super) fn add_entries(
+    pub(crate) fn add_entries(
         &mut self,
         key: &str,
         entries: DeTable<'i>,
@@ -132,7 +144,7 @@ impl<'i> Section<'i> {
     }
 
     /// Puts entries in front of a list of tables.
-    pub(super) fn put_before(&mut self, key: &str, mut entries: DeArray<'i>) {
+    pub(crate) fn put_before(&mut self, key: &str, mut entries: DeArray<'i>) {
         let Some(first) = entries.first().map(Spanned::span) else {
             return;
         };
@@ -156,18 +168,24 @@ impl<'i> Section<'i> {
         });
     }
 
+    /// The value of a key that is still there.
+    pub(crate) fn peek(&self, key: &str) -> Option<&DeValue<'i>> {
+        let node = self.nodes.iter().find(|node| node.key == key)?;
+        Some(node.value.get_ref())
+    }
+
     /// Whether a key is still there.
-    pub(super) fn has(&self, key: &str) -> bool {
+    pub(crate) fn has(&self, key: &str) -> bool {
         self.nodes.iter().any(|node| node.key == key)
     }
 
     /// Takes out everything that is left, for tables whose keys are names.
-    pub(super) fn rest(&mut self) -> Vec<Node<'i>> {
+    pub(crate) fn rest(&mut self) -> Vec<Node<'i>> {
         std::mem::take(&mut self.nodes)
     }
 
     /// Takes a value out, with its place.
-    pub(super) fn at<T: DeserializeOwned>(
+    pub(crate) fn at<T: DeserializeOwned>(
         &mut self,
         key: &'static str,
         problems: &mut Problems,
@@ -176,7 +194,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes a value out.
-    pub(super) fn get<T: DeserializeOwned>(
+    pub(crate) fn get<T: DeserializeOwned>(
         &mut self,
         key: &'static str,
         problems: &mut Problems,
@@ -185,7 +203,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes a value out, or gives a default.
-    pub(super) fn or<T: DeserializeOwned>(
+    pub(crate) fn or<T: DeserializeOwned>(
         &mut self,
         key: &'static str,
         default: T,
@@ -195,7 +213,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes a list of exactly `N` entries out, with its place.
-    pub(super) fn array<T: DeserializeOwned, const N: usize>(
+    pub(crate) fn array<T: DeserializeOwned, const N: usize>(
         &mut self,
         key: &'static str,
         problems: &mut Problems,
@@ -206,7 +224,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes a list of exactly `N` entries out, or gives a default.
-    pub(super) fn array_or<T: DeserializeOwned, const N: usize>(
+    pub(crate) fn array_or<T: DeserializeOwned, const N: usize>(
         &mut self,
         key: &'static str,
         default: [T; N],
@@ -216,7 +234,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes out lists of exactly `N` entries.
-    pub(super) fn arrays<T: DeserializeOwned, const N: usize>(
+    pub(crate) fn arrays<T: DeserializeOwned, const N: usize>(
         &mut self,
         key: &'static str,
         problems: &mut Problems,
@@ -241,7 +259,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes out a number that must lie in a range.
-    pub(super) fn ranged<T>(
+    pub(crate) fn ranged<T>(
         &mut self,
         key: &'static str,
         range: std::ops::RangeInclusive<T>,
@@ -267,7 +285,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes out a text that is one of a set of names.
-    pub(super) fn named<T>(&mut self, key: &'static str, default: T, problems: &mut Problems) -> T
+    pub(crate) fn named<T>(&mut self, key: &'static str, default: T, problems: &mut Problems) -> T
     where
         T: std::str::FromStr,
         T::Err: std::fmt::Display,
@@ -282,7 +300,7 @@ impl<'i> Section<'i> {
     }
 
     /// Takes out a table within this one.
-    pub(super) fn table(
+    pub(crate) fn table(
         &mut self,
         key: &'static str,
         problems: &mut Problems,
@@ -293,22 +311,22 @@ impl<'i> Section<'i> {
     }
 
     /// What a table within this one is called.
-    pub(super) fn inner_title(&self, key: &str) -> String {
+    pub(crate) fn inner_title(&self, key: &str) -> String {
         match self.title.strip_suffix(']') {
             Some(outer) => format!("{outer}.{key}]"),
-            None if self.title == ROOT => format!("[{key}]"),
+            None if self.outermost => format!("[{key}]"),
             None => format!("{}, [{key}]", self.title),
         }
     }
 
     /// Reports that something must be there.
-    pub(super) fn missing(&self, what: &str, problems: &mut Problems) {
+    pub(crate) fn missing(&self, what: &str, problems: &mut Problems) {
         let message = format!("{} needs {what}", self.title);
         problems.error(&rules::MISSING, self.span, message);
     }
 
     /// Reports every key that nobody asked for.
-    pub(super) fn finish(self, problems: &mut Problems) {
+    pub(crate) fn finish(self, problems: &mut Problems) {
         for node in &self.nodes {
             if problems.full() {
                 return;
@@ -322,12 +340,12 @@ impl<'i> Section<'i> {
 
 impl<'i> Node<'i> {
     /// Where the value stands.
-    pub(super) fn span(&self, problems: &Problems) -> Span {
+    pub(crate) fn span(&self, problems: &Problems) -> Span {
         problems.span(self.value.span())
     }
 
     /// The value as a type of ours.
-    pub(super) fn read<T: DeserializeOwned>(self, problems: &mut Problems) -> Option<At<T>> {
+    pub(crate) fn read<T: DeserializeOwned>(self, problems: &mut Problems) -> Option<At<T>> {
         let span = self.span(problems);
         match T::deserialize(ValueDeserializer::from(self.value)) {
             Ok(value) => Some(At { value, span }),
@@ -342,7 +360,7 @@ impl<'i> Node<'i> {
     }
 
     /// The value as a table.
-    pub(super) fn into_section(
+    pub(crate) fn into_section(
         self,
         title: impl Into<String>,
         problems: &mut Problems,
@@ -358,8 +376,30 @@ impl<'i> Node<'i> {
         }
     }
 
+    /// The entries of a list, each with the key of the list and the place of its first line. Anything but a list is
+    /// refused as not being what is `expected`.
+    pub(crate) fn into_list(self, expected: &str, problems: &mut Problems) -> Vec<Node<'i>> {
+        if !matches!(self.value.get_ref(), DeValue::Array(_)) {
+            self.refuse(expected, problems);
+        }
+        let DeValue::Array(list) = self.value.into_inner() else {
+            return Vec::new();
+        };
+        list.into_iter()
+            .map(|value| Node {
+                key: self.key.clone(),
+                // The header of a table, without the rest of its lines.
+                key_span: match value.span() {
+                    range if range.is_empty() => self.key_span,
+                    range => problems.span(range),
+                },
+                value,
+            })
+            .collect()
+    }
+
     /// Reports that the value is of none of the kinds that it may be.
-    pub(super) fn refuse(&self, expected: &str, problems: &mut Problems) {
+    pub(crate) fn refuse(&self, expected: &str, problems: &mut Problems) {
         let (key, found) = (&self.key, kind(self.value.get_ref()));
         let message = format!("`{key}` must be {expected}, not {found}");
         problems.error(&rules::VALUE, self.span(problems), message);

@@ -22,15 +22,15 @@ pub struct Shader {
 }
 
 /// The keys of one kind of shader in `[[draw]]`.
-pub(super) struct Keys {
-    kind: ShaderKind,
-    file: &'static str,
-    text: &'static str,
-    name: &'static str,
+pub(crate) struct Keys {
+    pub(crate) kind: ShaderKind,
+    pub(crate) file: &'static str,
+    pub(crate) text: &'static str,
+    pub(crate) name: &'static str,
 }
 
 /// `vs` or `vs_text`.
-pub(super) const VERTEX: Keys = Keys {
+pub(crate) const VERTEX: Keys = Keys {
     kind: ShaderKind::Vertex,
     file: "vs",
     text: "vs_text",
@@ -38,7 +38,7 @@ pub(super) const VERTEX: Keys = Keys {
 };
 
 /// `ps` or `ps_text`.
-pub(super) const PIXEL: Keys = Keys {
+pub(crate) const PIXEL: Keys = Keys {
     kind: ShaderKind::Pixel,
     file: "ps",
     text: "ps_text",
@@ -46,10 +46,10 @@ pub(super) const PIXEL: Keys = Keys {
 };
 
 /// A listing of the right kind, and where the scene file names it.
-pub(super) type Named = At<Arc<Program>>;
+pub(crate) type Named = At<Arc<Program>>;
 
 /// Reads, parses and judges a listing. What is wrong with it is reported at its own places, once for each file.
-pub(super) fn read(
+pub(crate) fn read(
     section: &mut Section<'_>,
     keys: &Keys,
     dialect: Dialect,
@@ -132,7 +132,7 @@ fn program(
 }
 
 /// Lowers a listing for the stages of a draw.
-pub(super) fn lowered(named: &Named, options: &Options, problems: &mut Problems) -> Option<Shader> {
+pub(crate) fn lowered(named: &Named, options: &Options, problems: &mut Problems) -> Option<Shader> {
     match lower(&named.value, options) {
         Ok(kernel) => Some(Shader {
             program: Arc::clone(&named.value),

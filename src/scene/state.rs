@@ -12,7 +12,7 @@ use crate::semantics::BumpState;
 use crate::texture::{Filter, Sampler};
 
 /// Reads `[draw.state]`. The distance that table fog uses is not a state of the file: the projection decides it.
-pub(super) fn state(mut section: Section<'_>, problems: &mut Problems) -> RenderState {
+pub(crate) fn state(mut section: Section<'_>, problems: &mut Problems) -> RenderState {
     let s = &mut section;
     let default = RenderState::default();
     let (depth, alpha, blend) = (
@@ -143,7 +143,7 @@ fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Ve
 }
 
 /// Reads how a texture is sampled: the address, filter and level keys of a stage.
-pub(super) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
+pub(crate) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
     let default = Sampler::default();
     let filter = s.node("filter").map(|node| filter_name(node, problems));
     let both = filter.unwrap_or_default();
@@ -220,7 +220,7 @@ fn filter_name(node: super::section::Node<'_>, problems: &mut Problems) -> Filte
 }
 
 /// Reads the bump mapping keys of a stage.
-pub(super) fn bump(s: &mut Section<'_>, problems: &mut Problems) -> BumpState {
+pub(crate) fn bump(s: &mut Section<'_>, problems: &mut Problems) -> BumpState {
     let default = BumpState::default();
     BumpState {
         matrix: s.array_or("bump_mat", default.matrix, problems),

@@ -28,7 +28,7 @@ const SOURCES: [&str; 9] = [
 
 /// What a texture of the file is.
 #[derive(Clone, Debug)]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// Texels.
     Loaded(Texture),
     /// What a render target of this name holds.
@@ -43,7 +43,7 @@ pub(super) enum Source {
 }
 
 /// Reads a texture.
-pub(super) fn read(
+pub(crate) fn read(
     mut section: Section<'_>,
     files: &mut Files<'_>,
     problems: &mut Problems,
@@ -101,7 +101,7 @@ pub(super) fn read(
 }
 
 /// What was made, or a problem.
-pub(super) fn made<T>(
+pub(crate) fn made<T>(
     result: Result<T, TextureError>,
     span: Span,
     problems: &mut Problems,

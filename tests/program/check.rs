@@ -188,3 +188,55 @@ fn usage_and_missing_files() {
     assert!(ran.err.contains("no/such/file.psh"), "{}", ran.err);
     assert_eq!(texcrd(&["check", "--dialect", "d3d7", "-"]).status, 2);
 }
+
+/// A repaired file stays what it was: a link stays a link, permissions stay.
+#[cfg(unix)]
+#[test]
+fn a_repaired_file_keeps_its_identity() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder("check_fix_identity");
+    let (real, link) = (folder.join("real.psh"), folder.join("link.psh"));
+    fs::write(&real, "ps.1.1\nmov r0, vl\n").expect("a file");
+    fs::set_permissions(&real, fs::Permissions::from_mode(0o640)).expect("permissions");
+    std::os::unix::fs::symlink("real.psh", &link).expect("a link");
+    let ran = texcrd(&["check", "--fix", link.to_str().expect("a readable path")]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert_eq!(
+        fs::read_to_string(&real).expect("still there"),
+        "ps.1.1\nmov r0, v1\n"
+    );
+    assert!(
+        fs::symlink_metadata(&link)
+            .expect("still there")
+            .is_symlink()
+    );
+    let mode = fs::metadata(&real)
+        .expect("still there")
+        .permissions()
+        .mode();
+    assert_eq!(mode & 0o777, 0o640);
+    // What must not be written is not.
+    fs::write(&real, "ps.1.1\nmov r0, vl\n").expect("a file");
+    fs::set_permissions(&real, fs::Permissions::from_mode(0o440)).expect("permissions");
+    assert_eq!(
+        texcrd(&["check", "--fix", real.to_str().expect("a readable path")]).status,
+        2
+    );
+    assert_eq!(
+        fs::read_to_string(&real).expect("still there"),
+        "ps.1.1\nmov r0, vl\n"
+    );
+}
+
+#[test]
+fn programs_can_read_the_repair() {
+    let ran = texcrd_with_input(&["check", "--format", "json", "-"], b"ps.1.1\nmov r0, vl\n");
+    let object: Value = serde_json::from_str(ran.out.trim()).expect("one object");
+    let fix = &object["fix"];
+    assert_eq!(fix["replacement"], "v1");
+    assert_eq!(fix["certain"], true);
+    assert_eq!(
+        (fix["line"].as_u64(), fix["column"].as_u64()),
+        (Some(2), Some(9))
+    );
+}

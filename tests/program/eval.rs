@@ -244,3 +244,38 @@ fn a_refused_listing_is_not_run() {
     assert!(ran.err.contains("O1"), "{}", ran.err);
     assert!(ran.out.is_empty());
 }
+
+/// Devices had 96 constants or more; what is beyond them is a warning in the lenient dialect and can be set.
+#[test]
+fn constants_beyond_those_of_every_device() {
+    let arguments = [
+        "eval",
+        "-",
+        "--format",
+        "json",
+        "--dialect",
+        "lenient",
+        "--set",
+        "c200=1,2,3,4",
+    ];
+    let ran = texcrd_with_input(&arguments, b"vs.1.1\nmov oPos, c200\n");
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let result: Value = serde_json::from_str(&ran.out).expect("one object");
+    holds(&result, "oPos", &[1.0, 2.0, 3.0, 4.0]);
+}
+
+/// What passes between the steps of one instruction is nobody's register; depth is one number.
+#[test]
+fn the_trace_names_what_listings_name() {
+    let listing = "ps.1.4\ntexcrd r5.rg, t1_dw.xyw\nphase\nmov r0, c0\n";
+    let trace = &eval(listing, &["t1=1,2,3,4"])["trace"];
+    let names: Vec<_> = trace[0]["writes"]
+        .as_object()
+        .expect("writes")
+        .keys()
+        .collect();
+    assert_eq!(names, ["r5"]);
+    let listing = "ps.1.4\ntexcrd r5.rgb, t0\nphase\ntexdepth r5\nmov r0, c0\n";
+    let trace = &eval(listing, &["t0=0.25,0.5,0"])["trace"];
+    assert_eq!(trace[2]["writes"]["depth"], 0.5);
+}

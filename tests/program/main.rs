@@ -4,6 +4,7 @@
 mod check;
 mod eval;
 mod run;
+mod test;
 mod translate;
 
 use std::io::Write;

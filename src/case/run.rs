@@ -1,0 +1,257 @@
+//! The CPU's way to run an invocation.
+
+use super::{Case, Invocation, Quantity};
+use crate::exec::{Environment, Machine, Stage, Trace, bind_constants};
+use crate::isa::register::{OFOG, OPTS};
+use crate::isa::{RegisterFile, ShaderKind};
+use crate::kernel::Slot;
+use crate::raster::{self, LonePixel, Vertex, fog_unit, merge_lone, vertex_outputs};
+use crate::scene::Shader;
+use crate::semantics::saturate;
+
+/// What an invocation gave.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observed {
+    /// The numbers of the quantities that the invocation expects or accepts. A quantity of one number has it in the
+    /// first component.
+    pub values: Vec<(Quantity, [f32; 4])>,
+    /// Whether the pixel was discarded by `texkill`.
+    pub killed: bool,
+    /// [`Quantity::Frame`] as a target of 8 bits a channel stores it, divided by 255.
+    pub stored: [f32; 4],
+}
+
+impl Observed {
+    /// The numbers of a quantity; zeros for one that was not asked for.
+    pub fn value(&self, quantity: Quantity) -> [f32; 4] {
+        let found = self.values.iter().find(|(known, _)| *known == quantity);
+        found.map_or([0.0; 4], |(_, value)| *value)
+    }
+}
+
+/// Where a number was born: the instruction that wrote it last.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// What the listing is called.
+    pub listing: String,
+    /// The line in it, from 1.
+    pub line: usize,
+    /// The instruction, on one line.
+    pub text: String,
+}
+
+/// A finished run on the CPU.
+#[derive(Debug)]
+pub struct Run<'a> {
+    /// What came out.
+    pub observed: Observed,
+    case: &'a Case,
+    vertex: Option<Recorded<'a>>,
+    pixel: Option<Recorded<'a>>,
+}
+
+/// A shader that has run.
+#[derive(Debug)]
+struct Recorded<'a> {
+    shader: &'a Shader,
+    machine: Machine<1>,
+    trace: Trace,
+}
+
+/// Runs the shaders of a case once.
+///
+/// With both shaders the outputs of the vertex shader are the inputs of the pixel shader, as if the primitive were one
+/// point: nothing is clipped and nothing is interpolated, colours and fog are clamped as the rasterizer clamps them. The
+/// point has no neighbours, so that textures are magnified.
+pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
+    let vertex = case.vertex.as_ref().map(|shader| {
+        let environment = Environment {
+            constants: bind_constants(&shader.kernel, &invocation.vertex_constants),
+            ..Environment::default()
+        };
+        let inputs = invocation.vertex_inputs.iter().enumerate();
+        let inputs = inputs.filter_map(|(i, value)| Some((Slot::input(i)?, *value)));
+        record(shader, &environment, inputs)
+    });
+    let outputs = match &vertex {
+        Some(run) => vertex_outputs(&run.shader.kernel, &run.machine, 0),
+        None => without_vertex_shader(invocation),
+    };
+    let pixel = case.pixel.as_ref().map(|shader| {
+        let environment = Environment {
+            constants: bind_constants(&shader.kernel, &invocation.pixel_constants),
+            stages: std::array::from_fn(|i| Stage {
+                texture: case.stages[i].texture.as_ref(),
+                sampler: case.stages[i].sampler,
+                bump: case.stages[i].bump,
+            }),
+        };
+        let colors = [outputs.diffuse, outputs.specular].into_iter().enumerate();
+        let colors =
+            colors.filter_map(|(i, color)| Some((Slot::input(i)?, color.to_array().map(saturate))));
+        let sets = outputs.texcoords.iter().enumerate();
+        let sets = sets.filter_map(|(i, set)| Some((Slot::texcoord(i)?, set.to_array())));
+        record(shader, &environment, colors.chain(sets))
+    });
+    let mut run = Run {
+        observed: Observed::default(),
+        case,
+        vertex,
+        pixel,
+    };
+    run.collect(invocation, &outputs);
+    run
+}
+
+/// What stands for a vertex where no vertex shader runs: a point on the near plane whose fog is the alpha of its
+/// specular colour, as Direct3D takes it from vertices that no transformation gives a distance.
+fn without_vertex_shader(invocation: &Invocation) -> Vertex {
+    let [diffuse, specular] = invocation.colors;
+    Vertex {
+        position: glam::Vec4::W,
+        diffuse: diffuse.into(),
+        specular: specular.into(),
+        texcoords: invocation.texcoords.map(glam::Vec4::from),
+        fog: specular[3],
+        point_size: None,
+    }
+}
+
+fn record<'a>(
+    shader: &'a Shader,
+    environment: &Environment<'_>,
+    inputs: impl Iterator<Item = (Slot, [f32; 4])>,
+) -> Recorded<'a> {
+    let mut machine = Machine::new();
+    for (slot, value) in inputs {
+        machine.load(slot, value);
+    }
+    let trace = Trace::record(&mut machine, &shader.kernel, environment, 0);
+    Recorded {
+        shader,
+        machine,
+        trace,
+    }
+}
+
+impl Run<'_> {
+    /// Takes out what the invocation speaks of.
+    fn collect(&mut self, invocation: &Invocation, outputs: &Vertex) {
+        let z = saturate(outputs.position.z / outputs.position.w);
+        let replaced_z = self.pixel.as_ref().and_then(|run| {
+            let writes = run.shader.kernel.writes_depth();
+            writes.then(|| run.machine.lane(Slot::DEPTH, 0)[0])
+        });
+        let pixel = self.pixel.as_ref();
+        let killed = pixel.is_some_and(|run| run.trace.killed_by.is_some());
+        let color = pixel.map(|run| run.machine.lane(Slot::R0, 0));
+        let lone = LonePixel {
+            color: color.unwrap_or_default(),
+            killed,
+            z,
+            replaced_z,
+            w: outputs.position.w,
+            fog: fog_unit(outputs.fog),
+        };
+        let clear = self.case.clear;
+        // A target of one pixel is never too large.
+        let merged = merge_lone(&self.case.state, &lone, clear).unwrap_or(raster::Merged {
+            exact: clear,
+            stored: [0; 4],
+        });
+        let wanted = std::iter::once(&invocation.expect).chain(&invocation.accept);
+        let mut values: Vec<(Quantity, [f32; 4])> = Vec::new();
+        for quantity in wanted.flat_map(|e| e.values.iter().map(|value| value.quantity)) {
+            if values.iter().any(|(known, _)| *known == quantity) {
+                continue;
+            }
+            let value = match quantity {
+                Quantity::Register(..) => self.register(quantity, outputs),
+                Quantity::Depth => [replaced_z.unwrap_or(z), 0.0, 0.0, 0.0],
+                Quantity::Frame => merged.exact,
+            };
+            values.push((quantity, value));
+        }
+        self.observed = Observed {
+            values,
+            killed,
+            stored: merged.stored.map(|channel| f32::from(channel) / 255.0),
+        };
+    }
+
+    /// A register at the end, as it is compared.
+    fn register(&self, quantity: Quantity, outputs: &Vertex) -> [f32; 4] {
+        let (Some((run, slot)), Quantity::Register(_, register)) = (self.place(quantity), quantity)
+        else {
+            return [0.0; 4];
+        };
+        match (register.file, register.index) {
+            (RegisterFile::RastOut, OFOG) => [fog_unit(outputs.fog), 0.0, 0.0, 0.0],
+            (RegisterFile::RastOut, OPTS) => {
+                let size = outputs.point_size.unwrap_or(self.case.state.point.size);
+                [size, 0.0, 0.0, 0.0]
+            }
+            (RegisterFile::AttrOut, _) => run.machine.lane(slot, 0).map(saturate),
+            _ => run.machine.lane(slot, 0),
+        }
+    }
+
+    /// The run that a quantity belongs to, and where in its machine it is.
+    fn place(&self, quantity: Quantity) -> Option<(&Recorded<'_>, Slot)> {
+        let Quantity::Register(kind, register) = quantity else {
+            let pixel = self.pixel.as_ref()?;
+            return match quantity {
+                Quantity::Depth if pixel.shader.kernel.writes_depth() => Some((pixel, Slot::DEPTH)),
+                Quantity::Depth => Some((self.vertex.as_ref()?, Slot::POSITION)),
+                _ => Some((pixel, Slot::R0)),
+            };
+        };
+        let run = match kind {
+            ShaderKind::Vertex => self.vertex.as_ref()?,
+            ShaderKind::Pixel => self.pixel.as_ref()?,
+        };
+        let kernel = &run.shader.kernel;
+        let slot = Slot::of(register, kernel.version)?;
+        // What no texture instruction has written holds its coordinates.
+        let untouched = register.file == RegisterFile::Texture && kernel.written(slot).is_empty();
+        match Slot::texcoord(register.index as usize) {
+            Some(set) if untouched => Some((run, set)),
+            _ => Some((run, slot)),
+        }
+    }
+
+    /// The instruction that wrote a component of a quantity last; of [`Quantity::Frame`], the component of `r0` that it
+    /// is made of. `None` for the quantity: the instruction that discarded the pixel.
+    pub fn origin(&self, quantity: Option<Quantity>, component: usize) -> Option<Origin> {
+        let Some(quantity) = quantity else {
+            let run = self.pixel.as_ref()?;
+            return self.instruction(run, run.trace.killed_by?);
+        };
+        let (run, slot) = self.place(quantity)?;
+        let component = match slot {
+            Slot::FOG => run.shader.kernel.fog_component,
+            Slot::POINT_SIZE => run.shader.kernel.point_size_component,
+            // The depth that no shader replaces is oPos.z / oPos.w.
+            Slot::POSITION if quantity == Quantity::Depth => 2,
+            _ => component,
+        };
+        let writes = run.trace.changes.iter().filter(|c| c.slot == slot);
+        let last = writes
+            .rev()
+            .find(|c| c.mask.components().any(|written| written == component));
+        self.instruction(run, last?.instruction)
+    }
+
+    fn instruction(&self, run: &Recorded<'_>, number: usize) -> Option<Origin> {
+        let instruction = run.shader.program.instructions().nth(number)?;
+        let at = self.case.sources.locate(instruction.span)?;
+        let text = self.case.sources.text(instruction.span);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let plus = if instruction.co_issue { "+" } else { "" };
+        Some(Origin {
+            listing: at.file.to_owned(),
+            line: at.line,
+            text: format!("{plus}{}", words.join(" ")),
+        })
+    }
+}

@@ -1,0 +1,408 @@
+//! `test`: shader unit tests.
+
+use super::eval::json_number;
+use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json};
+use clap::ValueEnum;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use texcrd::case::{Case, CaseError, Invocation, Origin, Verdict, Wrong};
+use texcrd::policy::Dialect;
+use texcrd::scene::{DirectoryResolver, LoadOptions};
+
+/// Folders nest at most this deep; deeper ones are probably links that lead in circles.
+const MAX_DEPTH: usize = 32;
+
+/// Runs shader unit tests: cases that say what a listing computes from given inputs.
+///
+/// The format is described in docs/cases.md. Of a wrong number the instruction that wrote it is told.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  texcrd test tests/conformance
+  texcrd test my_shader.toml other.json
+  texcrd test tests/conformance --filter texbem
+  texcrd test cases --quiet                   failures and the summary only
+  texcrd test cases --format json             one object a case
+
+A case, lrp.toml:
+  ps = \"ps.1.1\\nlrp r0, c0, v0, v1\"
+  ps_constants.c0 = [0.25, 0.25, 0.25, 0.25]
+  inputs.v0 = [1, 0, 0, 1]
+  inputs.v1 = [0, 1, 0, 1]
+  expect.r0 = [0.25, 0.75, 0, 1]
+
+Exit status: 0 every case passes, 1 one fails or cannot be read as a case, 2 usage or I/O.")]
+pub(super) struct Arguments {
+    /// Cases, or folders of them: every .toml and .json below, in the order of their names. `-` is standard input.
+    #[arg(required = true, value_name = "CASE")]
+    cases: Vec<String>,
+    /// Run only the cases whose path or name has this text in it.
+    #[arg(long, value_name = "TEXT")]
+    filter: Option<String>,
+    /// Where the shaders run.
+    #[arg(long, value_enum, default_value_t)]
+    on: On,
+    /// Do not tell of cases that pass.
+    #[arg(short, long)]
+    quiet: bool,
+    /// How results are written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
+    #[arg(long, value_parser = dialect, default_value = "d3d8")]
+    dialect: Dialect,
+}
+
+/// What runs the shaders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum On {
+    /// The interpreter.
+    #[default]
+    Cpu,
+}
+
+/// How many cases came out how.
+#[derive(Default)]
+struct Counts {
+    passed: usize,
+    /// Those of the passed ones that only gave another result that is accepted.
+    accepted: usize,
+    failed: usize,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let mut paths = Vec::new();
+    for path in &arguments.cases {
+        if path != "-" && Path::new(path).is_dir() {
+            collect(Path::new(path), 0, &mut paths)?;
+        } else {
+            paths.push(path.clone());
+        }
+    }
+    let mut counts = Counts::default();
+    let mut failures = String::new();
+    for path in &paths {
+        let bytes = files::read(path)?;
+        let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+        let options = LoadOptions {
+            dialect: arguments.dialect,
+        };
+        let resolver = DirectoryResolver::new(folder);
+        let loaded = Case::load(files::name(path), &bytes, &resolver, &options);
+        let name = loaded.as_ref().map_or("", |case| case.name.as_str());
+        if let Some(text) = &arguments.filter
+            && ![path, name].iter().any(|s| contains(s, text))
+        {
+            continue;
+        }
+        let result = match loaded {
+            Ok(case) => {
+                let verdicts = match arguments.on {
+                    On::Cpu => case.check(),
+                };
+                Ok((case, verdicts))
+            }
+            Err(error) => Err(error),
+        };
+        counts.add(&result);
+        match arguments.format {
+            Format::Json => print_json(&to_json(path, &result))?,
+            Format::Text => {
+                let line = line(path, &result);
+                if !arguments.quiet || !line.starts_with("ok") {
+                    print(&line)?;
+                }
+                failures.push_str(&details(path, &result));
+            }
+        }
+    }
+    if counts.passed + counts.failed == 0 {
+        let what = match &arguments.filter {
+            Some(text) => format!("no case has `{text}` in its path or name"),
+            None => "there are no cases".to_owned(),
+        };
+        return Err(Failure::Io(what));
+    }
+    if arguments.format == Format::Text {
+        if !failures.is_empty() {
+            print(&format!("\n{failures}"))?;
+        }
+        print(&counts.summary())?;
+    }
+    if counts.failed > 0 {
+        return Err(Failure::Rejected);
+    }
+    Ok(())
+}
+
+/// The cases below a folder.
+fn collect(folder: &Path, depth: usize, paths: &mut Vec<String>) -> Outcome {
+    let failed = |e: std::io::Error| Failure::Io(format!("{}: {e}", folder.display()));
+    if depth > MAX_DEPTH {
+        let message = format!("{}: folders nest too deep", folder.display());
+        return Err(Failure::Io(message));
+    }
+    let mut entries = fs::read_dir(folder)
+        .and_then(|entries| entries.collect::<Result<Vec<_>, _>>())
+        .map_err(failed)?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let path = entry.path();
+        let is_case = (path.extension()).is_some_and(|extension| {
+            ["toml", "json"]
+                .iter()
+                .any(|known| extension.eq_ignore_ascii_case(known))
+        });
+        if path.is_dir() {
+            collect(&path, depth + 1, paths)?;
+        } else if is_case {
+            paths.push(path.display().to_string());
+        }
+    }
+    Ok(())
+}
+
+fn contains(text: &str, part: &str) -> bool {
+    text.to_lowercase().contains(&part.to_lowercase())
+}
+
+type Ran = Result<(Case, Vec<Verdict>), Box<CaseError>>;
+
+/// How a whole case came out, in a word.
+fn outcome(ran: &Ran) -> &'static str {
+    match ran {
+        Err(_) => "error",
+        Ok((_, verdicts)) if !verdicts.iter().all(Verdict::passes) => "failed",
+        Ok((_, verdicts)) if verdicts.iter().all(|v| *v == Verdict::Passed) => "passed",
+        Ok(_) => "accepted",
+    }
+}
+
+impl Counts {
+    fn add(&mut self, ran: &Ran) {
+        match outcome(ran) {
+            "passed" => self.passed += 1,
+            "accepted" => {
+                self.passed += 1;
+                self.accepted += 1;
+            }
+            _ => self.failed += 1,
+        }
+    }
+
+    fn summary(&self) -> String {
+        let Self {
+            passed,
+            accepted,
+            failed,
+        } = self;
+        let apart = match accepted {
+            0 => String::new(),
+            _ => format!(" ({accepted} of those that passed by another accepted result)"),
+        };
+        format!("{passed} passed, {failed} failed{apart}\n")
+    }
+}
+
+/// One line a case.
+fn line(path: &str, ran: &Ran) -> String {
+    let path = files::name(path);
+    let (mark, name) = match (outcome(ran), ran) {
+        (_, Err(_)) => ("ERROR", String::new()),
+        ("passed", Ok((case, _))) => ("ok", title(path, case)),
+        ("accepted", Ok((case, _))) => ("ok, accepted", title(path, case)),
+        (_, Ok((case, _))) => ("FAILED", title(path, case)),
+    };
+    format!("{mark:<6} {path}{name}\n")
+}
+
+/// The name of a case behind its path, unless it is the path.
+fn title(path: &str, case: &Case) -> String {
+    if case.name == path {
+        return String::new();
+    }
+    format!(": {}", case.name)
+}
+
+/// What a person must know of a case that did not simply pass.
+fn details(path: &str, ran: &Ran) -> String {
+    let (case, verdicts) = match ran {
+        Ok(ran) => ran,
+        Err(error) => return diagnostics::render(&error.sources, &error.diagnostics),
+    };
+    let path = files::name(path);
+    let mut text = String::new();
+    for (number, (invocation, verdict)) in case.invocations.iter().zip(verdicts).enumerate() {
+        match verdict {
+            Verdict::Passed => {}
+            Verdict::Accepted(other) => {
+                let which = which(case, number, invocation);
+                text.push_str(&format!(
+                    "accepted: {path}:{}{}{which}: it gave result {} of `accept`\n\n",
+                    invocation.line,
+                    title(path, case),
+                    other + 1
+                ));
+            }
+            Verdict::Failed(wrong) => {
+                let which = which(case, number, invocation);
+                let title = title(path, case);
+                text.push_str(&format!(
+                    "failed: {path}:{}{title}{which}\n",
+                    invocation.line
+                ));
+                for entry in wrong {
+                    text.push_str(&told(entry, invocation));
+                }
+                text.push('\n');
+            }
+        }
+    }
+    text
+}
+
+/// Which of several invocations, for people.
+fn which(case: &Case, number: usize, invocation: &Invocation) -> String {
+    match &invocation.name {
+        Some(name) => format!(", {name}"),
+        None if case.invocations.len() > 1 => format!(", invocation {}", number + 1),
+        None => String::new(),
+    }
+}
+
+fn told(wrong: &Wrong, invocation: &Invocation) -> String {
+    match wrong {
+        Wrong::Number {
+            quantity,
+            component,
+            expected,
+            actual,
+            difference,
+            origin,
+        } => {
+            let mut place = quantity.to_string();
+            if let Some(letter) = quantity.letter(*component) {
+                place.push('.');
+                place.push(letter);
+            }
+            // A difference of many digits says no more than one of a few.
+            let difference = if difference.is_finite() {
+                format!(
+                    ", off by {difference:.3e} (tolerance {:e})",
+                    invocation.tolerance
+                )
+            } else {
+                String::new()
+            };
+            let born = match origin {
+                Some(origin) => format!("written by {}", place_of(origin)),
+                None => "no instruction writes it".to_owned(),
+            };
+            format!(
+                "  {place:<7} expected {expected}, got {actual}{difference}\n          {born}\n"
+            )
+        }
+        Wrong::Killed { expected: true, .. } => {
+            "  killed  expected true: no texkill discarded the pixel\n".to_owned()
+        }
+        Wrong::Killed { origin, .. } => {
+            let by = origin.as_ref().map_or_else(String::new, |origin| {
+                format!("\n          discarded by {}", place_of(origin))
+            });
+            format!("  killed  expected false{by}\n")
+        }
+    }
+}
+
+fn place_of(origin: &Origin) -> String {
+    let Origin {
+        listing,
+        line,
+        text,
+    } = origin;
+    format!("`{text}` ({listing}, line {line})")
+}
+
+/// A case for programs.
+fn to_json(path: &str, ran: &Ran) -> Value {
+    let file = files::name(path);
+    let (case, verdicts) = match ran {
+        Ok(ran) => ran,
+        Err(error) => {
+            let diagnostics: Vec<Value> = (error.diagnostics.iter())
+                .map(|diagnostic| diagnostics::to_json(&error.sources, diagnostic))
+                .collect();
+            return json!({
+                "file": file,
+                "name": null,
+                "outcome": outcome(ran),
+                "diagnostics": diagnostics,
+            });
+        }
+    };
+    let invocations: Vec<Value> = (case.invocations.iter().zip(verdicts).enumerate())
+        .map(|(number, (invocation, verdict))| {
+            let mut object = json!({
+                "invocation": number + 1,
+                "name": invocation.name,
+                "line": invocation.line,
+            });
+            match verdict {
+                Verdict::Passed => object["outcome"] = json!("passed"),
+                Verdict::Accepted(other) => {
+                    object["outcome"] = json!("accepted");
+                    object["accepted"] = json!(other + 1);
+                }
+                Verdict::Failed(wrong) => {
+                    object["outcome"] = json!("failed");
+                    let wrong = wrong.iter().map(|entry| wrong_json(entry, invocation));
+                    object["wrong"] = wrong.collect();
+                }
+            }
+            object
+        })
+        .collect();
+    json!({
+        "file": file,
+        "name": case.name,
+        "outcome": outcome(ran),
+        "invocations": invocations,
+    })
+}
+
+fn wrong_json(wrong: &Wrong, invocation: &Invocation) -> Value {
+    let (mut object, origin) = match wrong {
+        Wrong::Number {
+            quantity,
+            component,
+            expected,
+            actual,
+            difference,
+            origin,
+        } => (
+            json!({
+                "register": quantity.to_string(),
+                "component": quantity.letter(*component).map(String::from),
+                "expected": json_number(*expected),
+                "actual": json_number(*actual),
+                "difference": if difference.is_finite() { json!(difference) } else { Value::Null },
+                "tolerance": invocation.tolerance,
+            }),
+            origin,
+        ),
+        Wrong::Killed { expected, origin } => (
+            json!({ "register": "killed", "expected": expected, "actual": !expected }),
+            origin,
+        ),
+    };
+    object["written_by"] = match origin {
+        Some(Origin {
+            listing,
+            line,
+            text,
+        }) => json!({ "listing": listing, "line": line, "text": text }),
+        None => Value::Null,
+    };
+    object
+}
