@@ -41,6 +41,9 @@ use report::Reports;
 pub struct Options {
     /// The version of a text that has no version instruction (fragments that a program joins before assembling them).
     pub version: Option<Version>,
+    /// Whether what can be passed over without changing what the rest means, such as `_sat` on a source, is told as a
+    /// warning instead of an error.
+    pub lenient: bool,
 }
 
 /// What was read from a text.
@@ -99,7 +102,7 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
     let mut parser = Parser {
         text,
         base,
-        tokens: &lexed.tokens,
+        tokens: lexed.tokens,
         at: 0,
         version: options.version.unwrap_or(Version::Vs11),
         names_missing: lexed.names_missing,
@@ -108,6 +111,8 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         damaged: Vec::new(),
         lost: Vec::new(),
         strays: Vec::new(),
+        begun: false,
+        lenient: options.lenient,
     };
     let heading = parser.heading(options.version);
     if let Some(heading) = &heading {
