@@ -1,13 +1,14 @@
 //! Listings: reading them, saying what is wrong with them, repairing and printing them.
 //!
 //! The way of a text: `lexer` (bytes to tokens, `nom`), `prologue` (the version), `statement`, `list`, `operand`,
-//! `meaning`, `declare` (instructions). What a word means is in `names`; what a scanner or a typist makes of one in
+//! `index`, `meaning`, `declare` (instructions). What a word means is in `names`; what a scanner or a typist makes of one in
 //! `confuse`; what can be said about operands without mnemonic in `lost`. Line ends are white space to the grammar,
 //! but they are where reading starts again after damage, so that one damaged place is one diagnostic.
 
 mod confuse;
 mod declare;
 mod fix;
+mod index;
 mod lexer;
 mod list;
 mod lost;
