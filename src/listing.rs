@@ -29,7 +29,11 @@ impl Checked {
 /// What follows only from lines that could not be read (a register that they seem to write is not written, say) is
 /// not told again.
 pub fn check(file: &SourceFile, dialect: Dialect) -> Checked {
-    let parsed = syntax::parse(file);
+    let options = syntax::Options {
+        lenient: dialect == Dialect::Lenient,
+        ..Default::default()
+    };
+    let parsed = syntax::parse_with(file, options);
     let mut diagnostics = parsed.diagnostics.clone();
     diagnostics.extend(syntax::unread(file, &parsed));
     if let Some(program) = &parsed.program {

@@ -1,12 +1,16 @@
 //! What a scanner or a typist makes of a word: letters of the same shape, and edit distance.
 
 /// Letters that look alike in print. A letter may be in several groups.
-const ALIKE: [&str; 13] = [
-    "lIi1|", "oO0Q", "sS5", "B8", "bh6", "G6", "zZ2", "qg9", "uv", "vy", "ceC", "tf", "nh",
+const ALIKE: [&str; 16] = [
+    "lIi1|", "oO0Q", "sS5", "S8", "B8", "bh", "b6", "G6", "zZ2", "qg9", "uv", "vy", "vw", "ceC",
+    "tf", "nh",
 ];
 
 /// Letters that a scanner takes for two.
 const PAIRS: [(u8, &[u8]); 4] = [(b'm', b"rn"), (b'm', b"nn"), (b'w', b"vv"), (b'd', b"cl")];
+
+/// Two digits that a scanner takes for one letter.
+const JOINED: (u8, &[u8]) = (b'B', b"13");
 
 /// Longest word for which a likeness is looked for: more than the longest mnemonic with its suffixes.
 const LONGEST: usize = 28;
@@ -27,6 +31,12 @@ pub(super) fn reads_as(written: &str, meant: &str) -> bool {
         let Some((&m, meant_after)) = meant.split_first() else {
             return written.is_empty();
         };
+        if written.first() == Some(&JOINED.0)
+            && meant.starts_with(JOINED.1)
+            && rest(&written[1..], &meant[JOINED.1.len()..])
+        {
+            return true;
+        }
         let one = written
             .split_first()
             .is_some_and(|(&w, after)| alike(w, m) && rest(after, meant_after));
@@ -41,19 +51,46 @@ pub(super) fn reads_as(written: &str, meant: &str) -> bool {
     written.len() <= LONGEST && rest(written.as_bytes(), meant.as_bytes())
 }
 
+/// What a letter stands for in a number: itself, or the digits that it can be a misreading of.
+pub(super) fn digits_of(letter: char) -> Vec<String> {
+    let written = letter.to_string();
+    if letter.is_ascii_digit() {
+        return vec![written];
+    }
+    let joined = std::str::from_utf8(JOINED.1).unwrap_or("");
+    let candidates = (b'0'..=b'9').map(|digit| char::from(digit).to_string());
+    let readings: Vec<String> = candidates
+        .chain([joined.to_string()])
+        .filter(|meant| reads_as(&written, meant))
+        .collect();
+    if readings.is_empty() {
+        vec![written]
+    } else {
+        readings
+    }
+}
+
 /// The one candidate that `written` can be a misreading of; `None` if there is none or more than one.
 pub(super) fn only_reading<T>(
     written: &str,
     candidates: impl Iterator<Item = (T, String)>,
 ) -> Option<(T, String)> {
+    let mut fitting = readings(written, candidates);
+    let first = fitting.next()?;
+    fitting.next().is_none().then_some(first)
+}
+
+/// All candidates that `written` can be a misreading of.
+pub(super) fn readings<T>(
+    written: &str,
+    candidates: impl Iterator<Item = (T, String)>,
+) -> impl Iterator<Item = (T, String)> {
     // Where every letter would be another, it is not a misreading but another word.
-    let shares = |name: &str| {
+    let shares = move |name: &str| {
         let mut letters = written.bytes();
         letters.any(|b| name.bytes().any(|n| n.eq_ignore_ascii_case(&b)))
     };
-    let mut fitting = candidates.filter(|(_, name)| reads_as(written, name) && shares(name));
-    let first = fitting.next()?;
-    fitting.next().is_none().then_some(first)
+    candidates.filter(move |(_, name)| reads_as(written, name) && shares(name))
 }
 
 /// How many letters must be changed, added, dropped or swapped with their neighbour, in any case of letters.

@@ -1,6 +1,5 @@
 //! `def` and `dcl`.
 
-use super::confuse::alike;
 use super::lexer::{Kind, number};
 use super::names::{self, Found};
 use super::operand::Written;
@@ -124,6 +123,27 @@ impl Parser<'_> {
             let next = self.peek();
             if next.kind == Kind::Comma {
                 self.bump();
+            } else if let Some(joined) = self.split_number() {
+                match self.join_number(&joined, values.len()) {
+                    Some(value) if whole => {
+                        values.pop();
+                        values.push(value);
+                    }
+                    Some(_) => {}
+                    None => whole = false,
+                }
+                if self.peek().kind == Kind::Comma {
+                    self.bump();
+                } else {
+                    break;
+                }
+            } else if next.kind == Kind::Junk && !next.first && values.len() < 4 {
+                whole = false;
+                let message = format!("{} stands in a number", self.quoted(next));
+                let help = "nothing is computed here: write the value in digits with a point";
+                self.error(&rules::NUMBER, self.span(next), message, help);
+                self.at = self.line_end(self.at);
+                break;
             } else if !next.first
                 && values.len() < 4
                 && self.begins_number()
@@ -148,6 +168,46 @@ impl Parser<'_> {
         (values, whole)
     }
 
+    /// The number that the last and the next token are halves of: `0. 5`, `0 .5`.
+    fn split_number(&self) -> Option<String> {
+        let (before, after) = (self.previous(), self.peek());
+        if before.kind != Kind::Number || after.kind != Kind::Number || after.first {
+            return None;
+        }
+        let (before, after) = (self.word(before), self.word(after));
+        let points = before.ends_with('.') != after.starts_with('.')
+            && before.matches('.').count() + after.matches('.').count() == 1;
+        let joined = [before, after].concat();
+        (points && decimal(&joined).is_some()).then_some(joined)
+    }
+
+    /// Takes the second half of a number. It is certain to be one if the list, of which `read` numbers with the first
+    /// half were read, has four numbers then; otherwise a comma may be missing, and there is no value.
+    fn join_number(&mut self, joined: &str, read: usize) -> Option<f32> {
+        let (before, next) = (self.previous(), self.bump());
+        let mut commas = 0;
+        let mut at = self.at;
+        while !self.token(at).first && commas <= 4 {
+            match self.token(at).kind {
+                Kind::Comma => commas += 1,
+                Kind::Number | Kind::Minus | Kind::Plus | Kind::Dash | Kind::Word | Kind::Dot => {}
+                _ => break,
+            }
+            at += 1;
+        }
+        let span = self.span_of(before, next);
+        let message = format!("a blank splits the number `{joined}`");
+        if read + commas != 4 {
+            self.unsure(&rules::NUMBER, span, message, &[joined.to_string()]);
+            return None;
+        }
+        self.misread(&rules::NUMBER, span, message, joined);
+        let sign = self.token(self.at.saturating_sub(3)).kind;
+        let value = decimal(joined)?;
+        let negative = matches!(sign, Kind::Minus | Kind::Dash);
+        Some(if negative { -value } else { value })
+    }
+
     /// One number with its sign; `None` if it was reported.
     fn number(&mut self) -> Option<f32> {
         let first = self.peek();
@@ -155,8 +215,7 @@ impl Parser<'_> {
         match first.kind {
             Kind::Minus => negative = true,
             Kind::Dash => {
-                let message = "this dash is not the minus of the keyboard";
-                self.misread(&rules::STRAY, self.span(first), message, "-");
+                self.dash(first);
                 negative = true;
             }
             _ => {}
@@ -186,15 +245,23 @@ impl Parser<'_> {
         let text = self.text_of(span);
         let text = std::str::from_utf8(text).unwrap_or("");
         let quoted = quote(text.as_bytes());
-        let value = decimal(text).or_else(|| {
-            let meant = digits_for(text);
-            let value = decimal(&meant);
-            if value.is_some() {
-                let message = format!("{quoted} is no number");
-                self.misread(&rules::NUMBER, span, message, &meant);
+        let mut value = decimal(text);
+        if value.is_none() {
+            let mut meant = numbers_for(text);
+            meant.retain(|meant| decimal(meant).is_some());
+            let message = format!("{quoted} is no number");
+            match &meant[..] {
+                [] => {}
+                [only] => {
+                    self.misread(&rules::NUMBER, span, message, only);
+                    value = decimal(only);
+                }
+                _ => {
+                    self.unsure(&rules::NUMBER, span, message, &meant);
+                    return None;
+                }
             }
-            value
-        });
+        }
         match value {
             None if self.names_missing && text.starts_with(|c: char| c.is_ascii_alphabetic()) => {
                 None
@@ -246,6 +313,12 @@ impl Parser<'_> {
             let help = "remove the `+`";
             self.error(&rules::CO_ISSUE, head.span, message, help);
         }
+        if self.begun {
+            let message = "this declaration stands behind the first instruction";
+            let help = "move it in front of all instructions: Direct3D 9 takes it nowhere else";
+            let report = Diagnostic::warning(&rules::DECLARATION, head.span, message);
+            self.report(report.with_help(help));
+        }
         if !self.begins_operands() {
             return self.no_operands(head, 1);
         }
@@ -288,16 +361,13 @@ fn decimal(text: &str) -> Option<f32> {
     }
 }
 
-/// The text with letters that look like digits turned into them; an `f` at the end stays.
-fn digits_for(text: &str) -> String {
-    let digit = |c: char| {
-        let shape = |d: &char| c.is_ascii() && alike(c as u8, *d as u8);
-        ('0'..='9').find(shape).unwrap_or(c)
+/// The numbers that a text with letters for digits can be, a few; an `f` at the end stays.
+fn numbers_for(text: &str) -> Vec<String> {
+    let (digits, end) = match text.strip_suffix(['f', 'F', 't']) {
+        Some(digits) => (digits, "f"),
+        None => (text, ""),
     };
-    let mut meant: String = text.chars().map(digit).collect();
-    if meant.ends_with('t') {
-        meant.pop();
-        meant.push('f');
-    }
+    let mut meant = names::digit_readings(digits);
+    meant.iter_mut().for_each(|number| number.push_str(end));
     meant
 }

@@ -99,7 +99,7 @@ impl Parser<'_> {
     }
 
     /// How many operands stand from token `at` on; 0 if none does.
-    fn count_operands(&self, at: usize) -> usize {
+    pub(super) fn count_operands(&self, at: usize) -> usize {
         if !self.begins_operand(at) {
             return 0;
         }

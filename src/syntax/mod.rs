@@ -1,13 +1,14 @@
 //! Listings: reading them, saying what is wrong with them, repairing and printing them.
 //!
 //! The way of a text: `lexer` (bytes to tokens, `nom`), `prologue` (the version), `statement`, `list`, `operand`,
-//! `meaning`, `declare` (instructions). What a word means is in `names`; what a scanner or a typist makes of one in
+//! `index`, `meaning`, `declare` (instructions). What a word means is in `names`; what a scanner or a typist makes of one in
 //! `confuse`; what can be said about operands without mnemonic in `lost`. Line ends are white space to the grammar,
 //! but they are where reading starts again after damage, so that one damaged place is one diagnostic.
 
 mod confuse;
 mod declare;
 mod fix;
+mod index;
 mod lexer;
 mod list;
 mod lost;
@@ -41,6 +42,9 @@ use report::Reports;
 pub struct Options {
     /// The version of a text that has no version instruction (fragments that a program joins before assembling them).
     pub version: Option<Version>,
+    /// Whether what can be passed over without changing what the rest means, such as `_sat` on a source, is told as a
+    /// warning instead of an error.
+    pub lenient: bool,
 }
 
 /// What was read from a text.
@@ -99,7 +103,7 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
     let mut parser = Parser {
         text,
         base,
-        tokens: &lexed.tokens,
+        tokens: lexed.tokens,
         at: 0,
         version: options.version.unwrap_or(Version::Vs11),
         names_missing: lexed.names_missing,
@@ -108,6 +112,8 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         damaged: Vec::new(),
         lost: Vec::new(),
         strays: Vec::new(),
+        begun: false,
+        lenient: options.lenient,
     };
     let heading = parser.heading(options.version);
     if let Some(heading) = &heading {

@@ -1,6 +1,6 @@
 //! What words mean: versions, mnemonics with their suffixes, registers, component letters.
 
-use super::confuse::{alike, distance, only_reading, reads_as};
+use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
 use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::register::RAST_OUT;
@@ -217,12 +217,49 @@ pub(super) fn exact_register(stem: &str) -> Option<Name> {
 
 /// The register that a word names or can only be a misreading of, among those of the version.
 pub(super) fn register(stem: &str, version: Version) -> Found<Name> {
-    let all = || {
-        RegisterFile::all().flat_map(move |file| {
-            (0..file.count(version)).map(move |i| (Name::Register(file, i), file.register_name(i)))
-        })
-    };
-    Found::of(exact_register(stem), || only_reading(stem, all()))
+    Found::of(exact_register(stem), || {
+        only_reading(stem, registers_of(version))
+    })
+}
+
+/// The registers that a word can be a misreading of, among those of the version; a few.
+pub(super) fn possible_registers(stem: &str, version: Version) -> Vec<String> {
+    const MOST: usize = 4;
+    let found = readings(stem, registers_of(version)).map(|(_, name)| name);
+    found.take(MOST).collect()
+}
+
+/// The registers of a version with their names.
+fn registers_of(version: Version) -> impl Iterator<Item = (Name, String)> {
+    RegisterFile::all().flat_map(move |file| {
+        (0..file.count(version)).map(move |i| (Name::Register(file, i), file.register_name(i)))
+    })
+}
+
+/// The whole numbers that a word with letters for digits can be.
+pub(super) fn whole_numbers(word: &str) -> Vec<String> {
+    let mut meant = digit_readings(word);
+    meant.retain(|number| number.parse::<u32>().is_ok());
+    meant
+}
+
+/// What a word is when its letters stand for digits; a few readings.
+pub(super) fn digit_readings(word: &str) -> Vec<String> {
+    const LONGEST: usize = 24;
+    const MOST: usize = 4;
+    if word.len() > LONGEST {
+        return Vec::new();
+    }
+    let mut meant = vec![String::new()];
+    for letter in word.chars() {
+        let readings = digits_of(letter);
+        meant = meant
+            .iter()
+            .flat_map(|begun| readings.iter().map(move |r| format!("{begun}{r}")))
+            .take(MOST)
+            .collect();
+    }
+    meant
 }
 
 /// What a register of a later shader model is for.
@@ -267,8 +304,8 @@ pub(super) fn is_source_suffix_stem(word: &str) -> bool {
 pub(super) enum Letters {
     /// As written.
     Exact(Vec<u8>),
-    /// Misread, but they can be no others; with the text that was meant.
-    Misread(Vec<u8>, String),
+    /// Misread; what they can be, with the text that was meant.
+    Misread(Vec<(Vec<u8>, String)>),
     /// Letters of both sets.
     Mixed,
     /// More than four.
@@ -300,53 +337,62 @@ pub(super) fn letters(text: &str) -> Letters {
     if text.chars().all(in_sets) {
         return Letters::Mixed;
     }
-    let mut readings = sets.into_iter().filter_map(|set| misread(text, set));
-    match (readings.next(), readings.next()) {
-        (Some((components, meant)), None) => Letters::Misread(components, meant),
-        _ if text
-            .chars()
-            .all(|c| "stpquvw".contains(c.to_ascii_lowercase())) =>
-        {
-            Letters::OtherLanguage
+    let readings: Vec<_> = sets
+        .into_iter()
+        .flat_map(|set| misread(text, set))
+        .collect();
+    if !readings.is_empty() {
+        return Letters::Misread(readings);
+    }
+    if text
+        .chars()
+        .all(|c| "stpquvw".contains(c.to_ascii_lowercase()))
+    {
+        Letters::OtherLanguage
+    } else {
+        Letters::No
+    }
+}
+
+/// The components of one set that a text can be a misreading of. A letter of the set is never misread; `vv` is two
+/// letters or the `w` that a scanner has split.
+fn misread(text: &str, set: [char; 4]) -> Vec<(Vec<u8>, String)> {
+    // Two letters for each of four components.
+    const LONGEST: usize = 8;
+    let mut whole = Vec::new();
+    if text.len() > LONGEST || !text.is_ascii() {
+        return whole;
+    }
+    let mut begun = vec![(text, Vec::new(), String::new())];
+    while let Some((rest, components, meant)) = begun.pop() {
+        if rest.is_empty() {
+            whole.push((components, meant));
+            continue;
         }
-        _ => Letters::No,
+        if components.len() == 4 {
+            continue;
+        }
+        let one = rest.get(..1).unwrap_or("");
+        let exact = set.iter().any(|c| one.eq_ignore_ascii_case(&c.to_string()));
+        for (i, letter) in set.into_iter().enumerate().rev() {
+            for length in [2, 1] {
+                let (Some(part), Some(after)) = (rest.get(..length), rest.get(length..)) else {
+                    continue;
+                };
+                let reads = if length == 1 && exact {
+                    part.eq_ignore_ascii_case(&letter.to_string())
+                } else {
+                    reads_as(part, &letter.to_string())
+                };
+                if reads {
+                    let mut components: Vec<u8> = components.clone();
+                    components.push(i as u8);
+                    begun.push((after, components, format!("{meant}{letter}")));
+                }
+            }
+        }
     }
-}
-
-/// The components of one set that a text can be a misreading of.
-fn misread(text: &str, set: [char; 4]) -> Option<(Vec<u8>, String)> {
-    if text.len() > 8 {
-        return None;
-    }
-    let bytes = text.as_bytes();
-    let (mut at, mut components, mut meant) = (0, Vec::new(), String::new());
-    while let Some(&byte) = bytes.get(at) {
-        let two = bytes
-            .get(at..at + 2)
-            .and_then(|t| std::str::from_utf8(t).ok());
-        let wide = |c: &char| two.is_some_and(|t| reads_as(t, &c.to_string()));
-        let (i, length) = match set.iter().position(wide) {
-            Some(i) => (i, 2),
-            None => (one_letter(byte, set)?, 1),
-        };
-        components.push(i as u8);
-        meant.push(set[i]);
-        at += length;
-    }
-    (1..=4)
-        .contains(&components.len())
-        .then_some((components, meant))
-}
-
-/// The letter of a set that a byte is, or else the only one that it looks like.
-fn one_letter(byte: u8, set: [char; 4]) -> Option<usize> {
-    let exact = |c: &char| byte.eq_ignore_ascii_case(&(*c as u8));
-    if let Some(i) = set.iter().position(exact) {
-        return Some(i);
-    }
-    let mut fitting = (0..4).filter(|&i| alike(byte, set[i] as u8));
-    let first = fitting.next();
-    first.filter(|_| fitting.next().is_none())
+    whole
 }
 
 /// The usage of a `dcl` with its index: `texcoord0` is texture coordinates 0.

@@ -1,13 +1,13 @@
 //! Operands as they are written, before it is known which is the destination.
 
 use super::lexer::{Kind, Token};
-use super::names::{self, Found, Letters, Name};
+use super::names::{self, Found, Letters, Name, ResultSuffix};
 use super::parser::Parser;
 use super::report::{names as listed, quote};
 use super::rules;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::isa::{RegisterFile, ShaderKind, SourceModifier};
-use crate::program::Register;
+use crate::program::{Register, Statement};
 
 /// An operand as it is written.
 #[derive(Clone, Debug)]
@@ -39,6 +39,9 @@ pub(super) struct WrittenRegister {
     pub(super) damaged: bool,
 }
 
+/// The suffix in the word of a register, with its place.
+type Suffix<'a> = Option<(&'a str, Span)>;
+
 impl<'a> Parser<'a> {
     /// Reads one operand, the first of its statement or another; tells also whether a comma behind it was read that is written otherwise.
     pub(super) fn operand(&mut self, is_first: bool) -> (Written, bool) {
@@ -62,7 +65,7 @@ impl<'a> Parser<'a> {
             return (Written::Damaged, false);
         }
         self.bump();
-        let Some((register, suffix)) = self.register(token) else {
+        let Some((register, suffix, sure)) = self.register(token, is_first) else {
             self.skip_to_comma();
             return (Written::Damaged, false);
         };
@@ -74,7 +77,7 @@ impl<'a> Parser<'a> {
             suffix: "",
             components: None,
             components_span: Span::default(),
-            damaged: prefix_damaged,
+            damaged: prefix_damaged || !sure,
         };
         if let Some((suffix, at)) = suffix {
             self.suffix(&mut operand, suffix, at);
@@ -89,9 +92,20 @@ impl<'a> Parser<'a> {
             self.suffix(&mut operand, self.word(next), self.span(next));
         }
         self.lost_underscore(&mut operand);
-        let comma_read = self.selector(&mut operand);
+        let mut comma_read = self.selector(&mut operand);
         self.lost_underscore(&mut operand);
-        operand.span = self.span_from(first);
+        let (dot, next) = (self.peek(), self.token(self.at + 1));
+        let stands_for_comma = dot.kind == Kind::Dot && !dot.first && !next.first;
+        if !comma_read && stands_for_comma && self.has_register(next) {
+            self.bump();
+            let message = "the scan has a point where a comma belongs";
+            self.misread(&rules::SEPARATOR, self.span(dot), message, ",");
+            comma_read = true;
+        }
+        operand.span = match comma_read {
+            true => self.span_of(first, self.token(self.at.saturating_sub(2))),
+            false => self.span_from(first),
+        };
         (Written::Register(operand), comma_read)
     }
 
@@ -103,10 +117,7 @@ impl<'a> Parser<'a> {
             let token = self.peek();
             match token.kind {
                 Kind::Minus => {}
-                Kind::Dash => {
-                    let message = "this dash is not the minus of the keyboard";
-                    self.misread(&rules::STRAY, self.span(token), message, "-");
-                }
+                Kind::Dash => self.dash(token),
                 _ => break,
             }
             self.bump();
@@ -120,6 +131,9 @@ impl<'a> Parser<'a> {
         {
             self.bump();
             self.bump();
+            if minus.kind == Kind::Dash {
+                self.dash(minus);
+            }
             let span = self.span_of(first, minus);
             let text = self.word(one);
             let value: Option<f32> = text.trim_end_matches(['f', 'F']).parse().ok();
@@ -168,19 +182,32 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The register of a word, with the suffix in the same word.
-    fn register(&mut self, token: Token) -> Option<(Register, Option<(&'a str, Span)>)> {
+    /// The register of a word, with the suffix in the same word and whether it was certainly meant.
+    fn register(&mut self, token: Token, is_first: bool) -> Option<(Register, Suffix<'a>, bool)> {
         let word = self.word(token);
         let (stem, suffix) = word.split_at(word.find('_').unwrap_or(word.len()));
         let suffix_start = self.base + token.start + stem.len() as u32;
         let suffix_span = Span::new(suffix_start, self.base + token.end);
         let suffix = (!suffix.is_empty()).then_some((suffix, suffix_span));
         let stem_span = Span::new(self.base + token.start, suffix_start);
+        let mut sure = true;
         let name = match names::register(stem, self.version) {
             Found::Exact(name) => name,
             Found::Misread(name, meant) => {
                 let message = format!("`{stem}` is no register");
-                self.misread(&rules::REGISTER, stem_span, message, &meant);
+                if let Name::Register(file, index) = name
+                    && !is_first
+                    && !self.may_be_written(Register::new(file, index))
+                {
+                    sure = false;
+                    let report = self.unsure(&rules::REGISTER, stem_span, message, &[meant]);
+                    if let Some(report) = report {
+                        let hint = "nothing before it writes that register";
+                        self.reports.add_help(report, hint);
+                    }
+                } else {
+                    self.misread(&rules::REGISTER, stem_span, message, &meant);
+                }
                 name
             }
             Found::No => {
@@ -189,11 +216,13 @@ impl<'a> Parser<'a> {
             }
         };
         match name {
-            Name::Register(file, index) => Some((Register::new(file, index), suffix)),
+            Name::Register(file, index) => Some((Register::new(file, index), suffix, sure)),
             Name::File(file) if self.peek().kind == Kind::Open && suffix.is_none() => {
-                Some((Register::new(file, 0), None))
+                Some((Register::new(file, 0), None, sure))
             }
-            Name::File(file) => self.apart(token, file).map(|register| (register, None)),
+            Name::File(file) => self
+                .apart(token, file)
+                .map(|(register, sure)| (register, None, sure)),
             Name::TooLarge => {
                 let message = format!(
                     "{} has a number that no register has",
@@ -205,8 +234,22 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// Whether a register can have a value here: a temporary has one only if an instruction before wrote it.
+    fn may_be_written(&self, register: Register) -> bool {
+        let writes = |statement: &Statement| match statement {
+            Statement::Instruction(i) => i.destination.is_some_and(|d| d.register == register),
+            Statement::Def(_) | Statement::Dcl(_) => false,
+        };
+        register.file != RegisterFile::Temp
+            || self
+                .damaged
+                .iter()
+                .any(|d| d.destination.is_none_or(|r| r == register))
+            || self.statements.iter().any(writes)
+    }
+
     /// `c 12`: a register whose number stands apart.
-    fn apart(&mut self, token: Token, file: RegisterFile) -> Option<Register> {
+    fn apart(&mut self, token: Token, file: RegisterFile) -> Option<(Register, bool)> {
         let next = self.peek();
         let digits = self.word(next);
         let number = digits
@@ -222,8 +265,14 @@ impl<'a> Parser<'a> {
         self.bump();
         let meant = file.register_name(number);
         let message = format!("the number of `{meant}` stands apart");
-        self.misread(&rules::REGISTER, self.span_of(token, next), message, &meant);
-        Some(Register::new(file, number))
+        let span = self.span_of(token, next);
+        let sure = number < file.count(self.version);
+        if sure {
+            self.misread(&rules::REGISTER, span, message, &meant);
+        } else {
+            self.unsure(&rules::REGISTER, span, message, &[meant]);
+        }
+        Some((Register::new(file, number), sure))
     }
 
     fn unknown_register(&mut self, stem: &str, span: Span) {
@@ -234,6 +283,12 @@ impl<'a> Parser<'a> {
             return;
         }
         let quoted = quote(stem.as_bytes());
+        let possible = names::possible_registers(stem, self.version);
+        if !possible.is_empty() {
+            let message = format!("{quoted} is no register");
+            self.unsure(&rules::REGISTER, span, message, &possible);
+            return;
+        }
         let report = match names::foreign_register(stem) {
             Some(what) => Diagnostic::error(&rules::REGISTER, span, format!("{quoted} is {what}")),
             None => {
@@ -287,6 +342,20 @@ impl<'a> Parser<'a> {
                 let message = format!("{} is no source modifier", quote(text.as_bytes()));
                 self.misread(&rules::SOURCE_MODIFIER, span, message, &meant);
             }
+            Found::No
+                if !operand.first
+                    && names::has_source_suffixes(self.version)
+                    && names::result_suffix(text) == Found::Exact(ResultSuffix::Saturate) =>
+            {
+                let message = "a source cannot be saturated; the suffix is passed over";
+                let report = if self.lenient {
+                    Diagnostic::warning(&rules::SOURCE_MODIFIER, span, message)
+                } else {
+                    Diagnostic::error(&rules::SOURCE_MODIFIER, span, message)
+                };
+                let help = "saturate where the register is written: `_sat` belongs to the mnemonic";
+                self.report(report.with_help(help));
+            }
             Found::No => {
                 operand.damaged = true;
                 let message = format!("{} is no source modifier", quote(text.as_bytes()));
@@ -297,101 +366,6 @@ impl<'a> Parser<'a> {
                 };
                 self.error(&rules::SOURCE_MODIFIER, span, message, &help);
             }
-        }
-    }
-
-    /// The brackets behind `c` or `c12`.
-    fn index(&mut self, operand: &mut WrittenRegister) {
-        if self.peek().kind != Kind::Open {
-            return;
-        }
-        let open = self.bump();
-        let mut sum = Some(operand.register.index);
-        let mut relative = false;
-        let problem = loop {
-            let term = self.bump();
-            match term.kind {
-                Kind::Number => match self.word(term).parse::<u32>() {
-                    Ok(number) => sum = sum.and_then(|s| s.checked_add(number)),
-                    Err(_) => break Some("is no whole number that an index can have"),
-                },
-                Kind::Word => match names::register(self.word(term), self.version) {
-                    found @ (Found::Exact(Name::Register(RegisterFile::Addr, 0))
-                    | Found::Misread(Name::Register(RegisterFile::Addr, 0), _)) => {
-                        if let Found::Misread(_, meant) = found {
-                            let message = format!("{} is no register", self.quoted(term));
-                            self.misread(&rules::INDEX, self.span(term), message, &meant);
-                        }
-                        let (dot, letter) = (self.peek(), self.token(self.at + 1));
-                        if dot.kind != Kind::Dot || !self.word(letter).eq_ignore_ascii_case("x") {
-                            break Some("must be `a0.x`");
-                        }
-                        self.at += 2;
-                        if relative {
-                            break Some("stands twice in one index");
-                        }
-                        relative = true;
-                    }
-                    _ if self.names_missing => {
-                        operand.damaged = true;
-                        self.skip_index();
-                        return;
-                    }
-                    _ => break Some("is neither a whole number nor `a0.x`"),
-                },
-                Kind::Minus | Kind::Dash => break Some("subtracts: an index only adds"),
-                Kind::Close => break Some("closes an index without a number"),
-                _ => break Some("stands where a number or `a0.x` should"),
-            }
-            let next = self.peek();
-            match next.kind {
-                Kind::Close => {
-                    self.bump();
-                    break None;
-                }
-                Kind::Plus => {
-                    self.bump();
-                }
-                Kind::Minus | Kind::Dash => {
-                    self.bump();
-                    break Some("subtracts: an index only adds");
-                }
-                _ => {
-                    let message = "this index has no `]`";
-                    let help = "write `]` behind the index";
-                    self.error(&rules::INDEX, self.span(open), message, help);
-                    operand.damaged = true;
-                    return;
-                }
-            }
-        };
-        if let Some(problem) = problem {
-            let term = self.previous();
-            let message = format!("{} {problem}", self.quoted(term));
-            let help = "an index is written like c[12], c[a0.x + 12] or c12[a0.x]";
-            self.error(&rules::INDEX, self.span_of(open, term), message, help);
-            operand.damaged = true;
-            if term.kind != Kind::Close {
-                self.skip_index();
-            }
-        } else if let Some(index) = sum {
-            operand.register.index = index;
-            operand.register.relative = relative;
-        } else {
-            let message = "the sum in this index is larger than any register number";
-            let span = self.span_from(open);
-            self.report(Diagnostic::error(&rules::INDEX, span, message));
-            operand.damaged = true;
-        }
-    }
-
-    /// Behind the `]`, if the line has one.
-    fn skip_index(&mut self) {
-        while !self.peek().first && !matches!(self.peek().kind, Kind::Close | Kind::Comma) {
-            self.at += 1;
-        }
-        if self.peek().kind == Kind::Close && !self.peek().first {
-            self.bump();
         }
     }
 
@@ -441,6 +415,9 @@ impl<'a> Parser<'a> {
             self.suffix(operand, &meant, span);
             return false;
         }
+        if suffix.is_empty() && self.split_mask(operand, text, span) {
+            return false;
+        }
         self.components(operand, text, span);
         if !suffix.is_empty() {
             let at = Span::new(end, end + suffix.len() as u32);
@@ -456,6 +433,34 @@ impl<'a> Parser<'a> {
         false
     }
 
+    /// `.rg b`: letters with a blank between them. Certain where a comma follows; else the second part may be a word
+    /// of a comment.
+    fn split_mask(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) -> bool {
+        let (next, behind) = (self.peek(), self.token(self.at + 1));
+        let joined = [text, self.word(next)].concat();
+        let Letters::Exact(components) = names::letters(&joined) else {
+            return false;
+        };
+        let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
+        let legal = any_order || components.is_sorted_by(|a, b| a < b);
+        let comma = behind.kind == Kind::Comma && !behind.first;
+        if next.kind != Kind::Word || next.first || !legal || !(comma || behind.first) {
+            return false;
+        }
+        self.bump();
+        let span = span.to(self.span(next));
+        operand.components_span = span;
+        operand.components = Some(components);
+        let message = format!("a blank splits the letters `{joined}`");
+        if comma {
+            self.misread(&rules::SELECTOR, span, message, &joined);
+        } else {
+            operand.damaged = true;
+            self.unsure(&rules::SELECTOR, span, message, &[joined]);
+        }
+        true
+    }
+
     fn components(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
         let quoted = quote(text.as_bytes());
         let (message, help) = match names::letters(text) {
@@ -463,15 +468,27 @@ impl<'a> Parser<'a> {
                 operand.components = Some(components);
                 return;
             }
-            // Only sources of vertex shaders name components in any order.
-            Letters::Misread(components, meant)
-                if components.is_sorted_by(|a, b| a < b)
-                    || (!operand.first && self.version.kind() == ShaderKind::Vertex) =>
-            {
-                operand.components = Some(components);
+            Letters::Misread(mut readings) => {
+                // Only sources of vertex shaders name components in any order.
+                let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
+                readings.retain(|(letters, _)| any_order || letters.is_sorted_by(|a, b| a < b));
                 let message = format!("{quoted} are no components");
-                self.misread(&rules::SELECTOR, span, message, &meant);
-                return;
+                match &mut readings[..] {
+                    [] => (message, "components are letters of xyzw or of rgba"),
+                    [(components, meant)] => {
+                        operand.components = Some(std::mem::take(components));
+                        self.misread(&rules::SELECTOR, span, message, meant);
+                        return;
+                    }
+                    _ => {
+                        operand.damaged = true;
+                        const MOST: usize = 4;
+                        let meant = readings.into_iter().map(|(_, meant)| meant);
+                        let meant: Vec<String> = meant.take(MOST).collect();
+                        self.unsure(&rules::SELECTOR, span, message, &meant);
+                        return;
+                    }
+                }
             }
             Letters::Mixed => (
                 format!("{quoted} mixes the letters xyzw and rgba"),
@@ -485,7 +502,7 @@ impl<'a> Parser<'a> {
                 format!("{quoted} are components of another language"),
                 "Direct3D 8 has xyzw and rgba",
             ),
-            Letters::No | Letters::Misread(..) => (
+            Letters::No => (
                 format!("{quoted} are no components"),
                 "components are letters of xyzw or of rgba",
             ),

@@ -2,7 +2,7 @@
 
 use super::lexer::{Kind, Token};
 use super::names::{Found, Name, exact_register, register};
-use super::report::{Reports, quote};
+use super::report::{Reports, alternatives, quote};
 use super::{Damage, rules};
 use crate::diagnostic::{Diagnostic, Fix, Rule, Span};
 use crate::isa::{Opcode, Version};
@@ -12,7 +12,7 @@ use crate::program::{Register, Statement};
 pub(super) struct Parser<'a> {
     pub(super) text: &'a [u8],
     pub(super) base: u32,
-    pub(super) tokens: &'a [Token],
+    pub(super) tokens: Vec<Token>,
     pub(super) at: usize,
     pub(super) version: Version,
     /// Whether names may have been defined that are not known here.
@@ -23,6 +23,10 @@ pub(super) struct Parser<'a> {
     /// Operands without mnemonic, to be matched with `strays`.
     pub(super) lost: Vec<Lost>,
     pub(super) strays: Vec<Stray>,
+    /// Whether an instruction other than `def` and `dcl` was read.
+    pub(super) begun: bool,
+    /// What [`super::Options::lenient`] says.
+    pub(super) lenient: bool,
 }
 
 /// Operands whose mnemonic is lost.
@@ -150,6 +154,27 @@ impl<'a> Parser<'a> {
         )
     }
 
+    /// Reports a misreading that has these repairs, of which none is certain. Nothing is said of the second and further
+    /// ones but that they are possible.
+    pub(super) fn unsure(
+        &mut self,
+        rule: &'static Rule,
+        span: Span,
+        message: impl Into<String>,
+        meant: &[String],
+    ) -> Option<usize> {
+        let help = format!("did you mean {}?", alternatives(meant));
+        let mut report = Diagnostic::error(rule, span, message).with_help(help);
+        if let Some(first) = meant.first() {
+            report = report.with_fix(Fix {
+                span,
+                replacement: first.clone(),
+                certain: false,
+            });
+        }
+        self.report(report)
+    }
+
     /// Notes a statement that is not in the program.
     pub(super) fn damage(&mut self, span: Span, destination: Option<Register>) {
         self.damaged.push(Damage { span, destination });
@@ -232,7 +257,16 @@ impl<'a> Parser<'a> {
     /// `heading`: the line is before the version, where no instruction can stand.
     pub(super) fn stray_text(&mut self, heading: bool) {
         let first = self.peek();
-        let prose = self.words_of_prose(self.at);
+        let at = self.at;
+        if !heading && self.sign_before_instruction() {
+            return;
+        }
+        let prose = self.words_of_prose(at);
+        let half_before = !first.first
+            && self
+                .damaged
+                .last()
+                .is_some_and(|d| d.span.end == self.span(self.previous()).end);
         let end = self.line_end(self.at + 1);
         let span = self.span_of(first, self.token(end.saturating_sub(1)));
         self.at = end;
@@ -246,6 +280,8 @@ impl<'a> Parser<'a> {
             return;
         }
         let is_slash = first.kind == Kind::Junk && word == b"/";
+        let operands_follow =
+            prose < 2 && (self.begins_operand(at + 1) || self.token(at + 1).kind == Kind::Number);
         let sign = !matches!(first.kind, Kind::Word);
         if prose == 0 && !sign {
             let message = format!("{} is no instruction", self.quoted(first));
@@ -268,8 +304,16 @@ impl<'a> Parser<'a> {
         let fix = Fix {
             span: self.span(first).at_start(),
             replacement: if is_slash { "/" } else { "; " }.to_string(),
-            certain: heading || is_slash || prose > 1 || (prose == 1 && sign),
+            certain: if is_slash {
+                // Behind half an instruction, or before an operand, a stroke may stand for anything.
+                heading || !(half_before || operands_follow)
+            } else {
+                heading || prose > 1 || (prose == 1 && sign)
+            },
         };
+        if !fix.certain {
+            self.damage(span, None);
+        }
         let message = format!(
             "this is no instruction: {} reads like a comment that has lost its `;`",
             quote(self.text_of(span))
@@ -280,6 +324,73 @@ impl<'a> Parser<'a> {
                 .with_help(help)
                 .with_fix(fix),
         );
+    }
+
+    /// A stray sign at the start of a line whose second word is an instruction: takes the sign alone.
+    fn sign_before_instruction(&mut self) -> bool {
+        let sign = self.peek();
+        let bytes = self.bytes(sign);
+        let is_sign = match sign.kind {
+            Kind::Junk => bytes != b"/",
+            Kind::Dot | Kind::Comma | Kind::Close | Kind::Open => true,
+            _ => false,
+        };
+        let next = self.token(self.at + 1);
+        let instruction = !next.first
+            && self.mnemonic(next).is_some()
+            && (self.begins_operand(self.at + 2) || self.token(self.at + 2).first);
+        // A string of another language around the line is another fault.
+        let end = self.line_end(self.at + 1);
+        let line = self.between(next, self.token(end.saturating_sub(1)));
+        let quotes = |b: &u8| matches!(b, b'"' | b'\'');
+        let in_string = bytes.first().is_some_and(quotes) && line.iter().any(quotes);
+        if !sign.first || !is_sign || !instruction || in_string {
+            return false;
+        }
+        self.bump();
+        // Specks of dirt look like quotes; the other signs may mean that the line is not to run.
+        let quote_marks = [
+            "\"", "'", "`", "\u{2018}", "\u{2019}", "\u{201C}", "\u{201D}", "\u{B4}",
+        ];
+        let speck = sign.kind != Kind::Junk
+            || quote_marks.iter().any(|mark| mark.as_bytes() == bytes)
+            || matches!(bytes, [0x91..=0x94 | 0xB4]);
+        let span = self.span(sign);
+        let message = format!("{} stands before an instruction", quote(bytes));
+        let report = Diagnostic::error(&rules::STRAY, span, message)
+            .with_help("remove it")
+            .with_fix(Fix {
+                span,
+                replacement: String::new(),
+                certain: speck,
+            });
+        self.report(report);
+        true
+    }
+
+    /// A dash of typesetting that is read as a minus.
+    pub(super) fn dash(&mut self, token: Token) {
+        let span = self.span(token);
+        let message = "this dash is not the minus of the keyboard; it is read as one";
+        let report = Diagnostic::warning(&rules::SPELLING, span, message)
+            .with_help("write `-`")
+            .with_fix(Fix {
+                span,
+                replacement: "-".to_string(),
+                certain: true,
+            });
+        self.report(report);
+    }
+
+    /// Makes two tokens of the next one, the first of `length` bytes.
+    pub(super) fn split_token(&mut self, length: usize) {
+        if let Some(token) = self.tokens.get_mut(self.at) {
+            let mut rest = *token;
+            rest.start += length as u32;
+            rest.first = false;
+            token.end = rest.start;
+            self.tokens.insert(self.at + 1, rest);
+        }
     }
 
     pub(super) fn text_of(&self, span: Span) -> &'a [u8] {

@@ -54,13 +54,22 @@ impl Parser<'_> {
     fn version_here(&self) -> Option<(VersionText, usize)> {
         let first = self.peek();
         if first.kind == Kind::Version {
-            return Some((names::version(self.bytes(first)), self.at + 1));
+            let reading = names::version(self.bytes(first));
+            let longer = || self.longer_version(self.at + 1);
+            let found = (reading == VersionText::Unknown).then(longer).flatten();
+            return Some(found.unwrap_or((reading, self.at + 1)));
         }
         let starts_so = |b: &u8| alike(*b, b'v') || alike(*b, b'p');
         if first.kind != Kind::Word || !self.bytes(first).first().is_some_and(starts_so) {
             return None;
         }
-        (self.at..self.at + 5).find_map(|at| {
+        self.longer_version(self.at)
+    }
+
+    /// The version that the tokens of this line up to one from `from` on are, with the number of the token behind it.
+    fn longer_version(&self, from: usize) -> Option<(VersionText, usize)> {
+        let first = self.peek();
+        (from..self.at + 5).find_map(|at| {
             let token = self.token(at);
             let text = self.between(first, token);
             let same_line = at == self.at || !token.first;

@@ -88,7 +88,15 @@ impl Parser<'_> {
         let operand_follows =
             self.begins_operand(self.at + 1) && self.token(self.at + 1).kind == Kind::Word;
         let alone = next.first;
-        if Opcode::from_mnemonic(stem).is_some() {
+        if self.lost_space(token, co_issue) {
+            return;
+        }
+        if let Some(opcode) = Opcode::from_mnemonic(stem) {
+            // `tex ld r0, t0`: two words that are one mnemonic.
+            let whole = opcode.form(self.version).is_some() && self.begins_operand(self.at + 1);
+            if !whole && !alone && self.split_mnemonic(token, co_issue) {
+                return;
+            }
             // `add the two together`: prose that begins with a mnemonic.
             let prose = !alone
                 && next.kind == Kind::Word
@@ -99,6 +107,9 @@ impl Parser<'_> {
             } else {
                 self.instruction(token, stem, co_issue);
             };
+        }
+        if self.split_mnemonic(token, co_issue) {
+            return;
         }
         let register = self.registers(token);
         if let Found::Exact(Name::Register(..) | Name::TooLarge) = register {
@@ -149,6 +160,87 @@ impl Parser<'_> {
         } else {
             self.stray_text(false);
         }
+    }
+
+    /// `mulr0.rgb, …`: a mnemonic and a register without the blank between them, if only one division of the word is
+    /// that.
+    fn lost_space(&mut self, token: Token, co_issue: bool) -> bool {
+        const LONGEST: usize = 32;
+        let word = self.word(token);
+        let next = self.token(self.at + 1);
+        let operands = matches!(next.kind, Kind::Comma | Kind::Dot | Kind::Open) && !next.first;
+        if !operands || word.len() > LONGEST || self.is_register(token) {
+            return false;
+        }
+        let divides = |&at: &usize| {
+            let Some((mnemonic, register)) = word.split_at_checked(at) else {
+                return false;
+            };
+            let mut parts = mnemonic.split('_');
+            let stem = parts.next().and_then(Opcode::from_mnemonic);
+            let suffixes =
+                parts.all(|s| matches!(names::result_suffix(&format!("_{s}")), Found::Exact(_)));
+            let named = match names::exact_register(register) {
+                Some(Name::Register(file, index)) => index < file.count(self.version),
+                Some(Name::File(_)) => next.kind == Kind::Open,
+                _ => false,
+            };
+            named && suffixes && stem.is_some_and(|op| op.form(self.version).is_some())
+        };
+        let divisions: Vec<usize> = (1..word.len()).filter(divides).collect();
+        let [at] = divisions[..] else {
+            return false;
+        };
+        let (mnemonic, register) = word.split_at(at);
+        let message = format!("no blank stands between `{mnemonic}` and `{register}`");
+        let meant = format!("{mnemonic} {register}");
+        self.misread(&rules::INSTRUCTION, self.span(token), message, &meant);
+        self.split_token(at);
+        let stem = mnemonic.split('_').next().unwrap_or(mnemonic);
+        let mnemonic = self.peek();
+        self.instruction(mnemonic, stem, co_issue);
+        true
+    }
+
+    /// `dp 3 r0, …`: a mnemonic with a blank in it, if what follows is its operands.
+    fn split_mnemonic(&mut self, token: Token, co_issue: bool) -> bool {
+        let next = self.token(self.at + 1);
+        if next.first || !matches!(next.kind, Kind::Word | Kind::Number) || self.is_register(next) {
+            return false;
+        }
+        let joined = [self.word(token), self.word(next)].concat();
+        let (stem, suffixes) = joined.split_at(joined.find('_').unwrap_or(joined.len()));
+        let Some(opcode) = Opcode::from_mnemonic(stem) else {
+            return false;
+        };
+        let known = |s: &str| matches!(names::result_suffix(&format!("_{s}")), Found::Exact(_));
+        if self.word(token).contains('_') || !suffixes.split('_').skip(1).all(known) {
+            return false;
+        }
+        let count = match opcode {
+            Opcode::Dcl => return false,
+            // A register and four numbers.
+            Opcode::Def => 5,
+            _ => names::operand_count(opcode),
+        };
+        let behind = self.at + 2;
+        let fits = match count {
+            0 => self.token(behind).first,
+            _ => !self.token(behind).first && self.count_operands(behind) == count,
+        };
+        if opcode.form(self.version).is_none() || !fits {
+            return false;
+        }
+        self.at = behind;
+        let span = self.span_of(token, next);
+        let message = format!("a blank splits the mnemonic `{joined}`");
+        self.misread(&rules::INSTRUCTION, span, message, &joined);
+        let whole = Token {
+            end: next.end,
+            ..token
+        };
+        self.body(whole, stem, suffixes, co_issue);
+        true
     }
 
     /// A word in the place of a mnemonic that is none.
@@ -225,6 +317,7 @@ impl Parser<'_> {
         if opcode == Opcode::Dcl {
             return self.declaration(head, suffixes.strip_prefix('_').unwrap_or(suffixes));
         }
+        self.begun |= opcode != Opcode::Def;
         self.result_suffixes(&mut head, suffixes);
         match opcode {
             Opcode::Def => self.definition(head),
@@ -400,7 +493,14 @@ impl Parser<'_> {
         let span = self.span_from(head.token);
         let mut report = Diagnostic::error(&rules::OPERAND_COUNT, span, message);
         let takers = self.takers(list);
-        if !takers.is_empty() {
+        if let Some(at) = self.semicolon_for_comma(count.saturating_sub(written)) {
+            let help = "the `;` behind them may stand for a comma: what follows it is the rest of the operands";
+            report = report.with_help(help).with_fix(Fix {
+                span: at,
+                replacement: ",".to_string(),
+                certain: false,
+            });
+        } else if !takers.is_empty() {
             report = report.with_help(format!(
                 "instructions of {} that take these operands: {}",
                 self.version,
@@ -408,6 +508,31 @@ impl Parser<'_> {
             ));
         }
         self.report(report);
+    }
+
+    /// The `;` behind the last token, if the comment that it begins is exactly the `missing` operands.
+    fn semicolon_for_comma(&self, missing: usize) -> Option<Span> {
+        const LONGEST: usize = 200;
+        let end = self.previous().end;
+        let rest = self.text.get(end as usize..)?;
+        let rest = rest.get(..LONGEST.min(rest.len()))?;
+        let line = rest.split(|b| *b == b'\n').next()?;
+        let blanks = line.iter().take_while(|b| b.is_ascii_whitespace()).count();
+        let comment = line.get(blanks..)?.strip_prefix(b";")?;
+        let comment = std::str::from_utf8(comment).ok()?;
+        let comment = comment.split(';').next()?.split("//").next()?;
+        let is_operand = |text: &str| {
+            let text = text.trim().trim_start_matches("1-").trim_start_matches('-');
+            let name = text.split(['.', '_']).next().unwrap_or("");
+            matches!(names::exact_register(name), Some(Name::Register(..)))
+                && text
+                    .bytes()
+                    .all(|b| b.is_ascii_alphanumeric() || matches!(b, b'.' | b'_'))
+        };
+        let operands: Vec<&str> = comment.split(',').collect();
+        let at = self.base + end + blanks as u32;
+        (operands.len() == missing && operands.into_iter().all(is_operand))
+            .then(|| Span::new(at, at + 1))
     }
 
     /// Adds an instruction to the program, or reports what its operands cannot be.

@@ -1,7 +1,7 @@
 //! Lines that are gone without a trace: what they would have read is loaded and never read.
 
 use super::rules;
-use super::{Damage, Parsed};
+use super::{Damage, Parsed, names};
 use crate::diagnostic::{Diagnostic, SourceFile, Span};
 use crate::isa::{Class, Opcode, RegisterFile, ShaderKind, Version, WriteMask};
 use crate::program::{Instruction, Register};
@@ -38,6 +38,11 @@ pub fn unread(file: &SourceFile, parsed: &Parsed) -> Vec<Diagnostic> {
     };
     let instructions: Vec<&Instruction> = program.instructions().collect();
     let mut damaged = parsed.damaged.iter().peekable();
+    // What stands where a register should may have been one of those that were loaded.
+    let misread = |d: &&Diagnostic| {
+        d.rule.id == rules::REGISTER.id && d.severity == crate::diagnostic::Severity::Error
+    };
+    let mut misread = parsed.diagnostics.iter().filter(misread).peekable();
     let mut i = 0;
     while i < instructions.len() {
         while let Some(damage) = damaged.next_if(|d| d.span.start < instructions[i].span.start) {
@@ -46,6 +51,10 @@ pub fn unread(file: &SourceFile, parsed: &Parsed) -> Vec<Diagnostic> {
         let paired = instructions.get(i + 1).is_some_and(|next| next.co_issue);
         let group = &instructions[i..i + 1 + usize::from(paired)];
         group.iter().for_each(|instruction| walk.reads(instruction));
+        let end = group.last().map_or(0, |last| last.span.end);
+        while let Some(word) = misread.next_if(|d| d.span.start < end) {
+            walk.misread(&text_of(word.span));
+        }
         group
             .iter()
             .for_each(|instruction| walk.writes(instruction));
@@ -53,6 +62,9 @@ pub fn unread(file: &SourceFile, parsed: &Parsed) -> Vec<Diagnostic> {
     }
     for damage in damaged {
         walk.damage(damage, &text_of(damage.span));
+    }
+    for word in misread {
+        walk.misread(&text_of(word.span));
     }
     walk.finish()
 }
@@ -122,6 +134,10 @@ impl Walk {
     fn damage(&mut self, damage: &Damage, text: &str) {
         let words = text.split(|c: char| !c.is_ascii_alphanumeric());
         let named: Vec<Register> = words.filter_map(register).collect();
+        if named.is_empty() {
+            // It may read anything.
+            self.loads.clear();
+        }
         let written = damage
             .destination
             .filter(|first| named.first() == Some(first));
@@ -131,6 +147,15 @@ impl Walk {
         if let Some(register) = written {
             self.write(register, WriteMask::ALL);
         }
+    }
+
+    /// A word that names no register: it may have read those of the same number, or any if it has none.
+    fn misread(&mut self, word: &str) {
+        let digits = word.get(1..).unwrap_or("");
+        let numbers = names::whole_numbers(digits);
+        let numbers: Vec<u32> = numbers.iter().filter_map(|n| n.parse().ok()).collect();
+        self.loads
+            .retain(|load| !numbers.is_empty() && !numbers.contains(&load.register.index));
     }
 
     fn finish(mut self) -> Vec<Diagnostic> {

@@ -187,7 +187,11 @@ fn source_modifier(
         report.breach(
             Code::M1,
             source.span,
-            format!("{version} has no {text} on a source"),
+            match row.suffix {
+                "" => format!("{version} has no {text} on a source"),
+                // The minus sign is not what is missing.
+                suffix => format!("{version} has no `{suffix}` on a source"),
+            },
             format!("only {} has it", version_names(versions)),
         );
     } else if source.register.file == RegisterFile::Const {

@@ -23,7 +23,7 @@ const REPAIRS: [(&str, &str, &str); 38] = [
     ("vs.1.1", "s1t r0, r1, r2", "slt r0, r1, r2"),
     ("vs.1.1", "m3xB r0, r1, r2", "m3xB r0, r1, r2"),
     ("ps.1.4", "mov rl, r0", "mov r1, r0"),
-    ("ps.1.4", "mov r0, rO", "mov r0, r0"),
+    ("ps.1.4", "mov r0, v0\nmov r1, rO", "mov r0, v0\nmov r1, r0"),
     ("ps.1.1", "tex tO", "tex t0"),
     ("vs.1.1", "mov r0, cl2", "mov r0, c12"),
     ("vs.1.1", "mov rll, v0", "mov r11, v0"),
@@ -32,7 +32,7 @@ const REPAIRS: [(&str, &str, &str); 38] = [
     ("vs.1.1", "mov r0, c 12", "mov r0, c12"),
     ("vs.1.1", "mov r0, c[aO.x + 2]", "mov r0, c[a0.x + 2]"),
     ("ps.1.4", "mov r0.rqb, r1", "mov r0.rgb, r1"),
-    ("vs.1.1", "mov r0, v0.xvzw", "mov r0, v0.xyzw"),
+    ("vs.1.1", "mov r0.xvzw, v0", "mov r0.xyzw, v0"),
     ("vs.1.1", "mov r0, v0.xyzvv", "mov r0, v0.xyzw"),
     ("vs.1.1", "mov r0.x2, v0", "mov r0.xz, v0"),
     ("ps.1.4", "mad r0, r3, r4 x2, r1", "mad r0, r3, r4_x2, r1"),
@@ -48,8 +48,8 @@ const REPAIRS: [(&str, &str, &str); 38] = [
     ("ps.1.4", "mul r0. r3, r4", "mul r0, r3, r4"),
     (
         "ps.1.4",
-        "def c0, O.5, l.O, S.0f, 2",
-        "def c0, 0.5, 1.0, 5.0f, 2",
+        "def c0, O.5, l.O, Z.0f, 2",
+        "def c0, 0.5, 1.0, 2.0f, 2",
     ),
     ("ps.1.4", "c0, 0.9f, 0, 0, 0", "def c0, 0.9f, 0, 0, 0"),
     ("ps.1.4", "mov r0, r1 : copy it", "mov r0, r1 ; copy it"),
@@ -159,7 +159,13 @@ fn a_missing_version_is_said_once_unless_the_caller_knows_it() {
     );
     assert!(parsed.program.is_none());
     let version = Some(Version::Vs10);
-    let parsed = parse_with(&map.files()[1], Options { version });
+    let parsed = parse_with(
+        &map.files()[1],
+        Options {
+            version,
+            ..Options::default()
+        },
+    );
     assert_eq!(parsed.diagnostics, []);
     assert_eq!(parsed.program.unwrap().version, Version::Vs10);
     assert_eq!(found("nop\nmov r0, v0\nps.1.1\nmov r0, v0\n").len(), 1);

@@ -158,7 +158,9 @@ proptest! {
     #[test]
     fn what_is_printed_reads_back(program in programs()) {
         let text = print(&program);
-        let parsed = read(&text).1;
+        let mut parsed = read(&text).1;
+        // A declaration behind an instruction is warned of, and kept.
+        parsed.diagnostics.retain(|d| d.rule.id != "P18");
         prop_assert_eq!(&parsed.diagnostics, &[], "{}", text);
         prop_assert_eq!(without_spans(parsed.program.unwrap()), program);
     }
@@ -177,12 +179,12 @@ fn the_canonical_form() {
                    nop\n";
     assert_eq!(print(&accepted(text)), printed);
     let text =
-        "vs_1_1 dcl_texcoord0 v7 m4x4 OPOS, v0, c[12] mov r0.rg, -c12[a0.x + 1].r dcl_color1 v6.xy";
+        "vs_1_1 dcl_texcoord0 v7 dcl_color1 v6.xy m4x4 OPOS, v0, c[12] mov r0.rg, -c12[a0.x + 1].r";
     let printed = "vs.1.1\n\
                    dcl_texcoord v7\n\
+                   dcl_color1 v6.xy\n\
                    m4x4 oPos, v0, c12\n\
-                   mov r0.xy, -c[a0.x + 13].x\n\
-                   dcl_color1 v6.xy\n";
+                   mov r0.xy, -c[a0.x + 13].x\n";
     assert_eq!(print(&accepted(text)), printed);
     let i = only("ps.1.1\n+add_d2 r0.a, r1, v0");
     assert_eq!(

@@ -1,0 +1,120 @@
+//! The index in the brackets of a register.
+
+use super::lexer::Kind;
+use super::names::{self, Found, Name};
+use super::operand::WrittenRegister;
+use super::parser::Parser;
+use super::rules;
+use crate::diagnostic::Diagnostic;
+use crate::isa::RegisterFile;
+
+impl Parser<'_> {
+    /// The brackets behind `c` or `c12`.
+    pub(super) fn index(&mut self, operand: &mut WrittenRegister) {
+        if self.peek().kind != Kind::Open {
+            return;
+        }
+        let open = self.bump();
+        let mut sum = Some(operand.register.index);
+        let mut relative = false;
+        let problem = loop {
+            let term = self.bump();
+            match term.kind {
+                Kind::Number => match self.word(term).parse::<u32>() {
+                    Ok(number) => sum = sum.and_then(|s| s.checked_add(number)),
+                    Err(_) => break Some("is no whole number that an index can have"),
+                },
+                Kind::Word => match names::register(self.word(term), self.version) {
+                    found @ (Found::Exact(Name::Register(RegisterFile::Addr, 0))
+                    | Found::Misread(Name::Register(RegisterFile::Addr, 0), _)) => {
+                        if let Found::Misread(_, meant) = found {
+                            let message = format!("{} is no register", self.quoted(term));
+                            self.misread(&rules::INDEX, self.span(term), message, &meant);
+                        }
+                        let (dot, letter) = (self.peek(), self.token(self.at + 1));
+                        if dot.kind != Kind::Dot || !self.word(letter).eq_ignore_ascii_case("x") {
+                            break Some("must be `a0.x`");
+                        }
+                        self.at += 2;
+                        if relative {
+                            break Some("stands twice in one index");
+                        }
+                        relative = true;
+                    }
+                    _ if self.names_missing => {
+                        operand.damaged = true;
+                        self.skip_index();
+                        return;
+                    }
+                    _ => match &names::whole_numbers(self.word(term))[..] {
+                        [] => break Some("is neither a whole number nor `a0.x`"),
+                        [only] => {
+                            let message = format!("{} is no number", self.quoted(term));
+                            self.misread(&rules::INDEX, self.span(term), message, only);
+                            sum = sum
+                                .zip(only.parse().ok())
+                                .and_then(|(s, n): (u32, u32)| s.checked_add(n));
+                        }
+                        several => {
+                            operand.damaged = true;
+                            let message = format!("{} is no number", self.quoted(term));
+                            self.unsure(&rules::INDEX, self.span(term), message, several);
+                        }
+                    },
+                },
+                Kind::Minus | Kind::Dash => break Some("subtracts: an index only adds"),
+                Kind::Close => break Some("closes an index without a number"),
+                _ => break Some("stands where a number or `a0.x` should"),
+            }
+            let next = self.peek();
+            match next.kind {
+                Kind::Close => {
+                    self.bump();
+                    break None;
+                }
+                Kind::Plus => {
+                    self.bump();
+                }
+                Kind::Minus | Kind::Dash => {
+                    self.bump();
+                    break Some("subtracts: an index only adds");
+                }
+                _ => {
+                    let message = "this index has no `]`";
+                    let help = "write `]` behind the index";
+                    self.error(&rules::INDEX, self.span(open), message, help);
+                    operand.damaged = true;
+                    return;
+                }
+            }
+        };
+        if let Some(problem) = problem {
+            let term = self.previous();
+            let message = format!("{} {problem}", self.quoted(term));
+            let help = "an index is written like c[12], c[a0.x + 12] or c12[a0.x]";
+            self.error(&rules::INDEX, self.span_of(open, term), message, help);
+            operand.damaged = true;
+            if term.kind != Kind::Close {
+                self.skip_index();
+            }
+        } else if let Some(index) = sum {
+            operand.register.index = index;
+            operand.register.relative = relative;
+        } else {
+            let message = "the sum in this index is larger than any register number";
+            let span = self.span_from(open);
+            self.report(Diagnostic::error(&rules::INDEX, span, message));
+            operand.damaged = true;
+        }
+    }
+
+    /// Behind the `]`, if the line has one.
+    fn skip_index(&mut self) {
+        while !self.peek().first && !matches!(self.peek().kind, Kind::Close | Kind::Comma) {
+            self.at += 1;
+        }
+        if self.peek().kind == Kind::Close && !self.peek().first {
+            self.bump();
+        }
+    }
+}
