@@ -8,6 +8,7 @@
 
 pub mod diagnostic;
 pub mod exec;
+pub mod generate;
 pub mod isa;
 pub mod kernel;
 pub mod listing;
