@@ -7,6 +7,7 @@ mod check;
 mod diagnostics;
 mod eval;
 mod files;
+mod generate;
 mod run;
 mod show;
 
@@ -34,6 +35,7 @@ struct Arguments {
 enum Command {
     Check(check::Arguments),
     Eval(eval::Arguments),
+    Generate(generate::Arguments),
     Run(run::Arguments),
 }
 
@@ -73,6 +75,7 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Generate(arguments) => generate::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
     };
     let Err(failure) = outcome else {

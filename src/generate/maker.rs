@@ -170,15 +170,17 @@ impl<'a> Maker<'a> {
 
     /// Runs what was written from statement `first` on.
     fn probed(&self, before: &Probe, first: usize) -> Option<Probe> {
-        let kernel = probe::lowered(&self.program, &self.kernel_options())?;
+        let kernel = kernel::lower(&self.program, &self.kernel_options()).ok()?;
         let constants = self.bound_constants(&kernel);
         let environment = probe::environment(constants, &self.stages, self.textures);
-        let context = super::bound::Context {
-            precision: &self.options.precision,
-            stages: &self.stages,
-            textures: self.textures,
-        };
-        before.after(kernel, first, &environment, &context, self.options)
+        before.after(
+            kernel,
+            first,
+            &environment,
+            &self.stages,
+            self.textures,
+            self.options,
+        )
     }
 
     /// An arithmetic instruction of this opcode, with a destination of its own choice unless one is given.
@@ -196,7 +198,7 @@ impl<'a> Maker<'a> {
         }
         let destination = match given {
             Some(destination) => destination,
-            None => self.destination(opcode, form, role)?,
+            None => self.destination(form, role)?,
         };
         instruction.destination = Some(destination);
         instruction.result = self.result();
@@ -305,7 +307,7 @@ impl<'a> Maker<'a> {
             let opcodes = self.opcodes(role);
             let opcode = self.random.weighted(&opcodes)?;
             let form = opcode.form(self.version)?;
-            let mut destination = self.destination(opcode, form, role)?;
+            let mut destination = self.destination(form, role)?;
             // ps.1.0 writes one register with both halves (C5).
             if self.version == Version::Ps10
                 && let Some(before) = pair.first().and_then(|i| i.destination)
@@ -354,17 +356,21 @@ fn constants(random: &mut Random, options: &Options, mixture: Mixture) -> Consta
     let mut values: Vec<[f32; 4]> = (0..count)
         .map(|_| values::vector(random, mixture, -reach, reach))
         .collect();
+    let pool: Vec<u32> = match version.kind() {
+        ShaderKind::Pixel => (0..count).collect(),
+        ShaderKind::Vertex => (0..8).map(|_| random.below(count)).collect(),
+    };
     let mut defined: Vec<bool> = (0..count)
-        .map(|_| random.chance(options.weights.definitions))
+        .map(|index| {
+            // What no operand names is only reached by way of a0.x.
+            let share = if pool.contains(&index) { 1 } else { 8 };
+            random.chance(options.weights.definitions / share)
+        })
         .collect();
     // Infinities and NaN have no text, so that no definition can hold them.
     for (value, defined) in values.iter().zip(&mut defined) {
         *defined &= value.iter().all(|x| x.is_finite());
     }
-    let pool: Vec<u32> = match version.kind() {
-        ShaderKind::Pixel => (0..count).collect(),
-        ShaderKind::Vertex => (0..8).map(|_| random.below(count)).collect(),
-    };
     // One that everything can fall back to.
     if let Some(first) = pool.first().and_then(|at| values.get_mut(*at as usize)) {
         *first = [0.5, 0.25, -0.5, 1.0];

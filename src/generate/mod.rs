@@ -111,7 +111,7 @@ pub struct Weights {
     pub pairs: u32,
     /// Shaders of `ps.1.4` with two phases.
     pub phases: u32,
-    /// Constants read by way of `a0.x`, as the weight of one register among the sources.
+    /// Shaders that begin with `mov a0.x`; and the weight of constants read by way of it, where a temporary has 24.
     pub relative: u32,
     /// Constants that the shader defines itself.
     pub definitions: u32,
@@ -227,6 +227,44 @@ impl Generated {
         probe::environment(constants, &self.stages, textures)
     }
 
+    /// Another program with the same inputs, constants and stages: a smaller one, say, or the first instructions of
+    /// this one. Its results and their bounds are worked out anew.
+    ///
+    /// `None` if it has no meaning, or is to be comparable and executors that are right may part on it: then what
+    /// they make of it says nothing.
+    pub fn with(&self, program: &Program, options: &Options, textures: &Textures) -> Option<Self> {
+        let kernel = self.lower(program).ok()?;
+        let environment = self.environment(&kernel, textures);
+        let probe = if options.comparable {
+            let start = probe::Probe::new(&self.inputs);
+            let stages = &self.stages;
+            Some(start.after(kernel, 0, &environment, stages, textures, options)?)
+        } else {
+            None
+        };
+        let (listing, program) = with_text(program.clone());
+        let mut changed = Self {
+            program,
+            listing,
+            ..self.clone()
+        };
+        changed.run(textures, probe.as_ref());
+        Some(changed)
+    }
+
+    /// Works out the results.
+    fn run(&mut self, textures: &Textures, probe: Option<&probe::Probe>) {
+        let Ok(kernel) = self.lower(&self.program) else {
+            return;
+        };
+        let environment = self.environment(&kernel, textures);
+        let mut machine = Machine::<INVOCATIONS>::new();
+        self.load(&mut machine, 0);
+        machine.run(&kernel, &environment);
+        self.killed = *machine.killed();
+        self.outcomes = outcomes(&kernel, &machine, probe);
+    }
+
     /// Loads invocation `first` into lane 0, the next into lane 1 and so on, as many as there are of both.
     pub fn load<const N: usize>(&self, machine: &mut Machine<N>, first: usize) {
         for (slot, values) in &self.inputs {
@@ -292,6 +330,11 @@ fn pixel(maker: &mut Maker) {
 /// Arithmetic, the rest of `oPos`, and what is missing between the coordinate sets.
 fn vertex(maker: &mut Maker) {
     let sets = RegisterFile::TexCrdOut.count(maker.version);
+    let addresses = RegisterFile::Addr.count(maker.version) > 0;
+    // Left to chance, few shaders would have an address before they are at their end.
+    if addresses && maker.random.chance(maker.weights().relative) {
+        maker.fill(Register::new(RegisterFile::Addr, 0), WriteMask::X);
+    }
     arithmetic(maker, |_| 1 + sets);
     let position = Register::new(RegisterFile::RastOut, crate::isa::register::OPOS);
     maker.fill(position, maker.registers.missing());
@@ -341,14 +384,7 @@ fn finish(maker: Maker) -> Generated {
         outcomes: Vec::new(),
         killed: [false; INVOCATIONS],
     };
-    if let Ok(kernel) = generated.lower(&generated.program) {
-        let environment = generated.environment(&kernel, maker.textures);
-        let mut machine = Machine::<INVOCATIONS>::new();
-        generated.load(&mut machine, 0);
-        machine.run(&kernel, &environment);
-        generated.killed = *machine.killed();
-        generated.outcomes = outcomes(&kernel, &machine, probe.as_ref());
-    }
+    generated.run(maker.textures, probe.as_ref());
     generated
 }
 

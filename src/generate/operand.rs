@@ -4,7 +4,7 @@ use super::maker::{HERE, Maker};
 use crate::isa::opcode::{ModifierRule, Slots, SourceShape};
 use crate::isa::register::OPOS;
 use crate::isa::{
-    Form, Opcode, RegisterFile, ShaderKind, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
+    Form, RegisterFile, ShaderKind, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
 use crate::program::{Destination, Register, Source};
 
@@ -75,12 +75,7 @@ pub(super) struct Want {
 
 impl Maker<'_> {
     /// The mask and register that an instruction writes.
-    pub(super) fn destination(
-        &mut self,
-        opcode: Opcode,
-        form: &Form,
-        role: Role,
-    ) -> Option<Destination> {
+    pub(super) fn destination(&mut self, form: &Form, role: Role) -> Option<Destination> {
         let shape = form.destination?;
         let fits = |mask: &WriteMask| match role {
             Role::Alone => true,
@@ -124,14 +119,10 @@ impl Maker<'_> {
                 self.random.below(end)
             }
             RegisterFile::Temp if self.random.chance(40) => 0,
-            RegisterFile::Temp => self
-                .random
-                .below(count.min(6))
-                .max(self.random.below(count) / 2),
+            // Few registers are read again more often than many.
+            RegisterFile::Temp if self.random.chance(70) => self.random.below(count.min(4)),
             _ => self.random.below(count),
         };
-        // A macro such as exp may only be written where the opcode allows it; the tables have it all but for a0.
-        debug_assert!(file != RegisterFile::Addr || opcode == Opcode::Mov);
         Some(destination(Register::new(file, index), mask))
     }
 

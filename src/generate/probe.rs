@@ -2,11 +2,10 @@
 
 use super::approx::Approx;
 use super::bound::{Bounds, Context, modified};
-use super::{INVOCATIONS, Options, Stage};
+use super::{INVOCATIONS, Options, Stage, Textures};
 use crate::exec::{Environment, Machine, STAGES};
 use crate::isa::{ResultModifier, SourceModifier, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
-use crate::program::Program;
 
 /// All registers of all invocations after some instructions, with how far executors may be apart on them.
 #[derive(Clone)]
@@ -45,9 +44,15 @@ impl Probe {
         mut kernel: Kernel,
         first: usize,
         environment: &Environment<'_>,
-        context: &Context<'_>,
+        stages: &[Stage; STAGES],
+        textures: &Textures,
         options: &Options,
     ) -> Option<Probe> {
+        let context = &Context {
+            precision: &options.precision,
+            stages,
+            textures,
+        };
         let mut next = self.clone();
         let mut steps = std::mem::take(&mut kernel.steps);
         steps.retain(|step| step.origin >= first);
@@ -160,15 +165,10 @@ impl Probe {
 pub(super) fn environment<'a>(
     constants: Vec<[f32; 4]>,
     stages: &[Stage; STAGES],
-    textures: &'a super::Textures,
+    textures: &'a Textures,
 ) -> Environment<'a> {
     Environment {
         constants,
         stages: std::array::from_fn(|i| textures.stage(&stages[i])),
     }
-}
-
-/// The kernel of a program as far as it is written.
-pub(super) fn lowered(program: &Program, options: &crate::kernel::Options) -> Option<Kernel> {
-    crate::kernel::lower(program, options).ok()
 }

@@ -1,11 +1,12 @@
 //! Making a shader small.
 
 use super::with_text;
+use crate::isa::register::OPOS;
 use crate::isa::{
     Opcode, RegisterFile, ResultModifier, ShaderKind, SourceModifier, Swizzle, WriteMask,
 };
 use crate::policy::Dialect;
-use crate::program::{Instruction, Program, Register, Source, Statement};
+use crate::program::{Destination, Instruction, Program, Register, Source, Statement};
 use crate::syntax::print_instruction;
 use crate::validate::validate;
 use std::collections::BTreeSet;
@@ -16,7 +17,7 @@ const MOST_TRIES: u32 = 4096;
 /// Makes a shader on which something fails as small as can be while it still fails.
 ///
 /// Removes instructions (halves first, then less), then pairing, modifiers, masks and swizzles, replaces instructions
-/// by `mov` of a constant and operands by `c0`, until nothing of that is possible or 4096 shaders were tried. What is tried
+/// by `mov` of a constant, destinations by `r0` or `oPos` and operands by `c0`, until nothing of that is possible or 4096 shaders were tried. What is tried
 /// is valid: it breaks no rule of Direct3D 8 that `program` does not break, warnings included. `fails` says whether the
 /// failure is there; it is not asked about `program` itself. The result has the spans of [`crate::syntax::print`]'s text.
 pub fn shrink(program: &Program, fails: &mut dyn FnMut(&Program) -> bool) -> Program {
@@ -92,6 +93,7 @@ impl Shrinking<'_> {
 
     /// Makes single statements plainer.
     fn simplify(&mut self) -> bool {
+        let kind = self.best.version.kind();
         let mut any = false;
         let mut at = 0;
         while at < self.best.statements.len() {
@@ -101,7 +103,7 @@ impl Shrinking<'_> {
                 .best
                 .statements
                 .get(at)
-                .and_then(|s| plainer(s, number))
+                .and_then(|s| plainer(s, kind, number))
             {
                 let mut statements = self.best.statements.clone();
                 statements[at] = plainer;
@@ -119,12 +121,12 @@ impl Shrinking<'_> {
 }
 
 /// The plainer forms of a statement by number, the plainest first.
-fn plainer(statement: &Statement, number: usize) -> Option<Statement> {
+fn plainer(statement: &Statement, kind: ShaderKind, number: usize) -> Option<Statement> {
     let forms: Vec<Statement> = match statement {
         Statement::Instruction(i) => {
             // What is the same but for its place is no plainer.
-            let text = |i: &Instruction| print_instruction(i, ShaderKind::Pixel);
-            let forms = plainer_instructions(i).into_iter();
+            let text = |i: &Instruction| print_instruction(i, kind);
+            let forms = plainer_instructions(i, kind).into_iter();
             forms
                 .filter(|form| text(form) != text(i))
                 .map(Statement::Instruction)
@@ -144,7 +146,7 @@ fn plainer(statement: &Statement, number: usize) -> Option<Statement> {
     forms.into_iter().nth(number)
 }
 
-fn plainer_instructions(instruction: &Instruction) -> Vec<Instruction> {
+fn plainer_instructions(instruction: &Instruction, kind: ShaderKind) -> Vec<Instruction> {
     let mut forms = Vec::new();
     let constant = Source {
         register: Register::new(RegisterFile::Const, 0),
@@ -201,11 +203,22 @@ fn plainer_instructions(instruction: &Instruction) -> Vec<Instruction> {
     }
     if let Some(destination) = instruction.destination {
         let mut whole = instruction.clone();
-        whole.destination = Some(crate::program::Destination {
+        whole.destination = Some(Destination {
             mask: WriteMask::ALL,
             ..destination
         });
         forms.push(whole);
+        // What writes the result makes another instruction that does so superfluous.
+        let result = match kind {
+            ShaderKind::Pixel => Register::new(RegisterFile::Temp, 0),
+            ShaderKind::Vertex => Register::new(RegisterFile::RastOut, OPOS),
+        };
+        let mut direct = instruction.clone();
+        direct.destination = Some(Destination {
+            register: result,
+            ..destination
+        });
+        forms.push(direct);
     }
     forms
 }
