@@ -10,6 +10,7 @@
 pub mod case;
 pub mod diagnostic;
 pub mod exec;
+pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod isa;

@@ -9,6 +9,7 @@ mod compare;
 mod diagnostics;
 mod eval;
 mod files;
+mod generate;
 mod reflect;
 mod run;
 mod scene;
@@ -45,6 +46,7 @@ enum Command {
     Check(check::Arguments),
     Compare(compare::Arguments),
     Eval(eval::Arguments),
+    Generate(generate::Arguments),
     Run(run::Arguments),
     Translate(translate::Arguments),
     Test(test::Arguments),
@@ -88,6 +90,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Generate(arguments) => generate::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Translate(arguments) => translate::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

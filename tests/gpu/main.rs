@@ -29,7 +29,7 @@ fn device() -> Option<Device> {
         let set = std::env::var("GALLIVM_PERF").is_ok_and(|v| v.contains("no_aos_sampling"));
         assert!(
             set,
-            "{adapter} filters textures with 8 bits unless GALLIVM_PERF=no_aos_sampling is set; `./test` sets it"
+            "{adapter} filters textures with 8 bits unless GALLIVM_PERF=no_aos_sampling is set, as .cargo/config.toml does"
         );
     }
     Some(device)

@@ -3,6 +3,7 @@
 
 mod check;
 mod eval;
+mod generate;
 mod run;
 mod test;
 mod translate;

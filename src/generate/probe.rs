@@ -1,0 +1,174 @@
+//! Runs a shader while it is written, with a bound on every register.
+
+use super::approx::Approx;
+use super::bound::{Bounds, Context, modified};
+use super::{INVOCATIONS, Options, Stage, Textures};
+use crate::exec::{Environment, Machine, STAGES};
+use crate::isa::{ResultModifier, SourceModifier, WriteMask};
+use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+
+/// All registers of all invocations after some instructions, with how far executors may be apart on them.
+#[derive(Clone)]
+pub(super) struct Probe {
+    pub(super) machine: Machine<INVOCATIONS>,
+    /// The error of each component of each slot, slot by slot, invocation by invocation.
+    errors: Vec<[[f64; 4]; INVOCATIONS]>,
+}
+
+/// Where operands are looked at: nothing is kept there from one instruction to the next.
+const SCRATCH: Slot = Slot::COORDINATES;
+
+impl Probe {
+    /// The machine before the first instruction. Inputs are exact.
+    pub(super) fn new(inputs: &[(Slot, [[f32; 4]; INVOCATIONS])]) -> Self {
+        let mut machine = Machine::new();
+        for (slot, values) in inputs {
+            for (lane, value) in values.iter().enumerate() {
+                machine.set_lane(*slot, lane, *value);
+            }
+        }
+        Self {
+            machine,
+            errors: vec![[[0.0; 4]; INVOCATIONS]; SLOT_COUNT],
+        }
+    }
+
+    /// The error bounds of a slot.
+    pub(super) fn errors(&self, slot: Slot) -> [[f64; 4]; INVOCATIONS] {
+        self.errors.get(slot.index()).copied().unwrap_or_default()
+    }
+
+    /// The state after the instructions from number `first` on; `None` if executors that are right may part there.
+    pub(super) fn after(
+        &self,
+        mut kernel: Kernel,
+        first: usize,
+        environment: &Environment<'_>,
+        stages: &[Stage; STAGES],
+        textures: &Textures,
+        options: &Options,
+    ) -> Option<Probe> {
+        let context = &Context {
+            precision: &options.precision,
+            stages,
+            textures,
+        };
+        let mut next = self.clone();
+        let mut steps = std::mem::take(&mut kernel.steps);
+        steps.retain(|step| step.origin >= first);
+        kernel.presets.clear();
+        // A group is what reads before any of it writes: steps that are held and the one after them.
+        let mut rest = steps.as_slice();
+        while !rest.is_empty() {
+            let held = rest.iter().take_while(|step| step.held).count();
+            let (group, after) = rest.split_at((held + 1).min(rest.len()));
+            rest = after;
+            let mut bounds = Vec::with_capacity(group.len());
+            for step in group {
+                bounds.push(next.bounds(&mut kernel, step, environment, context)?);
+            }
+            kernel.steps = group.to_vec();
+            next.machine.run(&kernel, environment);
+            for (step, bounds) in group.iter().zip(bounds) {
+                next.keep(step, &bounds, options)?;
+            }
+        }
+        Some(next)
+    }
+
+    /// The bounds of what a step computes.
+    fn bounds(
+        &mut self,
+        kernel: &mut Kernel,
+        step: &Step,
+        environment: &Environment<'_>,
+        context: &Context<'_>,
+    ) -> Option<Bounds> {
+        let mut sources = [[[Approx::ZERO; 4]; INVOCATIONS]; 3];
+        for (i, (source, operand)) in sources.iter_mut().zip(&step.sources).enumerate() {
+            let slots = step.op.slots_read(i, step.mask);
+            *source = self.operand(kernel, operand, slots, environment, context);
+        }
+        let [a, b, c] = sources;
+        let mut bounds = [[Approx::ZERO; 4]; INVOCATIONS];
+        for (lane, bound) in bounds.iter_mut().enumerate() {
+            *bound = context.step(step.op, step.mask, [a[lane], b[lane], c[lane]])?;
+        }
+        Some(bounds)
+    }
+
+    /// What an operand reads, with bounds. The interpreter itself reads it, so that modifiers, swizzles and relative
+    /// addressing are not written a second time here.
+    fn operand(
+        &mut self,
+        kernel: &mut Kernel,
+        operand: &Operand,
+        slots: WriteMask,
+        environment: &Environment<'_>,
+        context: &Context<'_>,
+    ) -> Bounds {
+        let kept = *self.machine.register(SCRATCH);
+        kernel.steps = vec![Step {
+            op: Op::Mov,
+            destination: SCRATCH,
+            mask: slots,
+            sources: vec![*operand],
+            result: ResultModifier::NONE,
+            held: false,
+            origin: 0,
+        }];
+        self.machine.run(kernel, environment);
+        let values = *self.machine.register(SCRATCH);
+        *self.machine.register_mut(SCRATCH) = kept;
+        let errors = match operand.place {
+            Place::Slot(slot) => self.errors(slot),
+            Place::Constant(_) | Place::Relative(_) | Place::Literal(_) => [[0.0; 4]; INVOCATIONS],
+        };
+        let mut bounds = [[Approx::ZERO; 4]; INVOCATIONS];
+        for slot in slots.components() {
+            for (lane, bound) in bounds.iter_mut().enumerate() {
+                let value = f64::from(values[slot][lane]);
+                let error = errors[lane][operand.swizzle.slot(slot)];
+                bound[slot] = match operand.modifier {
+                    SourceModifier::None => Approx::new(value, error),
+                    modifier => modified(modifier, error, value, context.precision),
+                };
+            }
+        }
+        bounds
+    }
+
+    /// Takes over the bounds of a step that has run.
+    fn keep(&mut self, step: &Step, bounds: &Bounds, options: &Options) -> Option<()> {
+        if step.op == Op::Kill {
+            return Some(());
+        }
+        let errors = self.errors.get_mut(step.destination.index())?;
+        for (lane, bound) in bounds.iter().enumerate() {
+            let values = self.machine.lane(step.destination, lane);
+            for c in step.mask.components() {
+                let value = f64::from(values[c]);
+                let error = Context::finish(step.result, bound[c]).error;
+                let near = error <= options.largest_error * value.abs().max(1.0);
+                // Written so that NaN is refused.
+                if !(value.abs() <= options.largest_value && near) {
+                    return None;
+                }
+                errors[lane][c] = error;
+            }
+        }
+        Some(())
+    }
+}
+
+/// What a shader runs in.
+pub(super) fn environment<'a>(
+    constants: Vec<[f32; 4]>,
+    stages: &[Stage; STAGES],
+    textures: &'a Textures,
+) -> Environment<'a> {
+    Environment {
+        constants,
+        stages: std::array::from_fn(|i| textures.stage(&stages[i])),
+    }
+}
