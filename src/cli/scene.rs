@@ -18,10 +18,7 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
     let number = |text: &str| text.parse::<u32>().map_err(|_| wrong());
     let size = [number(width)?, number(height)?];
-    let [pixels, most] = [
-        size.map(u64::from).iter().product(),
-        Target::MAX_PIXELS as u64,
-    ];
+    let [pixels, most] = [size.map(u64::from).iter().product(), Target::MAX_PIXELS];
     if size.contains(&0) || size.iter().any(|side| *side > Target::MAX_SIDE) || pixels > most {
         let side = Target::MAX_SIDE;
         return Err(format!(
