@@ -110,7 +110,7 @@ pub(super) fn draw_on_gpu(
 pub(super) fn write_png(path: &Path, picture: &RgbaImage) -> Outcome {
     let mut png = Vec::new();
     let encoder =
-        PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
+        PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive);
     (picture.write_with_encoder(encoder))
         .map_err(|e| Failure::Input(format!("the picture cannot be written as PNG: {e}")))?;
     files::write(path, &png)
