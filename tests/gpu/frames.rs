@@ -132,8 +132,11 @@ fn clear_glass_without_mips() {
 }
 
 /// Stained glass: a normal map perturbs the direction. The room behind is rendered into a cube map of its own first, on
-/// each path by itself: where an edge of the room falls on different texels there, the difference of that texel is
-/// seen through the middle of the pane. These are counted: at most one pixel in a thousand.
+/// each path by itself: where an edge of the room falls on different texels there, the difference of that texel would be
+/// seen through the middle of the pane. That this is the whole reason is not proved.
+///
+/// A guard against getting worse, not the bound to be met: at most 1 for every pixel inside is what is wanted; 22 of 69676
+/// were above it, 3 at most, when this was written. The limits leave room for other versions of the adapter.
 #[test]
 fn stained_glass_without_mips() {
     if let Some(found) = compare("scene.toml", false) {
@@ -143,8 +146,9 @@ fn stained_glass_without_mips() {
 }
 
 /// With mips the level of detail of the adapter is off by up to 0.0625 (a linear mantissa for the logarithm), and more
-/// at the seams of a cube; what that is worth depends on how much two levels differ. Measured elsewhere on this pair: 98 %
-/// within 1, mean 0.14.
+/// at the seams of a cube; what that is worth depends on how much two levels differ, and a bound has yet to be derived
+/// from it. Until then this guards against getting worse: 96.5 % of the stained glass were within 1 and 83 pixels above 8
+/// when this was written.
 #[test]
 fn with_mips() {
     for name in ["figure5.toml", "scene.toml"] {
