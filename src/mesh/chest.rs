@@ -76,6 +76,8 @@ const VAULT: f64 = 0.28;
 const VAULT_FOOT: f64 = BODY + GAP + RIM;
 /// How far level bands stand out.
 const BAND: f64 = 0.012;
+/// How far the planks end below the bands: planks and band in one plane would fight for each pixel.
+const RECESS: f64 = 0.004;
 /// How far straps stand out: a little more, so that no strap lies in one plane with a band.
 const STRAP: f64 = 0.018;
 const STRAP_WIDTH: f64 = 0.08;
@@ -94,7 +96,7 @@ impl Chest {
         parts.block(
             ChestRegion::Wood,
             DVec3::new(0.0, BODY * 0.5, 0.0),
-            DVec3::new(WIDTH, BODY, DEPTH),
+            DVec3::new(WIDTH, BODY - 2.0 * RECESS, DEPTH),
         )?;
         let gap = DVec3::new(WIDTH - 0.03, 0.05, DEPTH - 0.03);
         parts.block(

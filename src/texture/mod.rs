@@ -19,6 +19,6 @@ pub use cube::{CUBE_FACES, FaceAxes, SignedAxis, direction_to_face, face_to_dire
 pub use error::TextureError;
 pub use format::{Format, words_to_bytes};
 pub use irradiance::MAX_IRRADIANCE_EDGE;
-pub use sample::{Footprint, Tap, footprint, level_of_detail, sample_at, sample_quads};
+pub use sample::{Footprint, Tap, footprint, levels_of_detail, sample_at, sample_quads};
 pub use sampler::{AddressMode, Filter, MipFilter, Sampler, UnknownName};
 pub use storage::{MAX_BYTES, MAX_EDGE, Texture, TextureKind};

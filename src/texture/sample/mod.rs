@@ -38,7 +38,7 @@ fn lerp(a: [f32; 4], b: [f32; 4], f: f32) -> [f32; 4] {
     std::array::from_fn(|channel| a[channel] + f * (b[channel] - a[channel]))
 }
 
-/// Filter and mip levels, as λ decides them for a quad.
+/// Filter and mip levels, as λ decides them.
 #[derive(Clone, Copy)]
 struct Choice {
     filter: Filter,
@@ -459,17 +459,14 @@ impl<'a, S: Store> Reader<'a, S> {
         let fixed = Choice::is_fixed(texture, sampler);
         for first in (0..N).step_by(4) {
             let end = N.min(first + 4);
-            let lambda = if fixed || end - first < 4 {
-                NO_DERIVATIVES
+            let lambdas = if fixed || end - first < 4 {
+                [NO_DERIVATIVES; 4]
             } else {
-                level_of_detail(
-                    texture,
-                    sampler,
-                    &std::array::from_fn(|lane| at(first + lane)),
-                )
+                let quad = std::array::from_fn(|lane| at(first + lane));
+                levels_of_detail(texture, sampler, &quad)
             };
-            let choice = Choice::new(texture, sampler, lambda);
-            for lane in first..end {
+            for (lane, lambda) in (first..end).zip(lambdas) {
+                let choice = Choice::new(texture, sampler, lambda);
                 let value = self.sample(kind, at(lane), choice);
                 for (channel, value) in out.iter_mut().zip(value) {
                     channel[lane] = value;
@@ -482,8 +479,8 @@ impl<'a, S: Store> Reader<'a, S> {
 /// Samples a texture for N lanes at once.
 ///
 /// `coords` are u, v, w (2D ignores w; a cube takes a direction of any length); `out` receives r, g, b, a.
-/// Each four lanes from 4q on are the pixels (x, y), (x+1, y), (x, y+1), (x+1, y+1) of a quad and share one level of
-/// detail ([`level_of_detail`]). Lanes that do not fill a quad (N = 1) have no derivatives: they are magnified and read
+/// Each four lanes from 4q on are the pixels (x, y), (x+1, y), (x, y+1), (x+1, y+1) of a quad, from which
+/// their levels of detail follow ([`levels_of_detail`]). Lanes that do not fill a quad (N = 1) have no derivatives: they are magnified and read
 /// the largest level that the sampler allows.
 /// Without a texture every lane reads (0, 0, 0, 1), as Direct3D 8 does for an empty stage.
 /// Any coordinate is allowed: NaN counts as 0, infinities as the largest finite number.
@@ -530,36 +527,54 @@ pub fn sample_at(
     }
 }
 
-/// λ of a 2×2 quad, bias included: log2 of the longer of the two steps, in texels of level 0.
+/// λ of each pixel of a 2×2 quad, bias included: log2 of the longer of its two steps, in texels of level 0.
 ///
-/// The steps are those along the quad's upper row (lane 1 − lane 0) and left column (lane 2 − lane 0); the fourth lane
-/// does not count. On a cube all lanes are projected onto the face of lane 0, so that a quad across an edge has
-/// the derivative of one plane; a lane behind that plane counts as very far.
-/// −∞ when the coordinate does not change; never NaN unless the bias is.
-pub fn level_of_detail(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4]) -> f32 {
-    let lanes: [[f32; 3]; 3] = match texture.kind {
-        TextureKind::Texture2D => [0, 1, 2].map(|lane| {
-            let [u, v, _] = quad[lane].map(finite);
-            [u, v, 0.0]
-        }),
-        TextureKind::Volume => [0, 1, 2].map(|lane| quad[lane].map(finite)),
-        TextureKind::Cube => {
-            let (face, _) = direction_to_face(quad[0]);
-            [0, 1, 2].map(|lane| {
-                let [u, v] = project_onto(face, quad[lane]);
-                [u, v, 0.0]
-            })
+/// A pixel's steps are those to the other pixel of its row (lanes 0 and 1, 2 and 3) and to the other one of its column.
+/// On a cube both are projected onto the face of the pixel itself, so that a quad across an edge has the derivative of one
+/// plane; a pixel behind that plane counts as very far.
+/// −∞ where the coordinate does not change; never NaN unless the bias is.
+pub fn levels_of_detail(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4]) -> [f32; 4] {
+    match texture.kind {
+        TextureKind::Texture2D => {
+            let flat = quad.map(|coord| [finite(coord[0]), finite(coord[1]), 0.0]);
+            levels_on_one_plane(texture, sampler, &flat)
         }
-    };
+        TextureKind::Volume => {
+            levels_on_one_plane(texture, sampler, &quad.map(|coord| coord.map(finite)))
+        }
+        TextureKind::Cube => {
+            let on = |face: usize| {
+                let flat = quad.map(|direction| {
+                    let [u, v] = project_onto(face, direction);
+                    [u, v, 0.0]
+                });
+                levels_on_one_plane(texture, sampler, &flat)
+            };
+            let faces = quad.map(|direction| direction_to_face(direction).0);
+            if faces == [faces[0]; 4] {
+                return on(faces[0]);
+            }
+            std::array::from_fn(|lane| on(faces[lane])[lane])
+        }
+    }
+}
+
+/// [`levels_of_detail`] of coordinates that can be subtracted.
+fn levels_on_one_plane(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4]) -> [f32; 4] {
     let size = texture.levels[0].size.map(|edge| edge as f32);
-    let squared_step = |lane: usize| {
+    let squared_step = |from: usize, to: usize| {
         let mut sum = 0.0;
         for axis in 0..3 {
-            let step = (lanes[lane][axis] - lanes[0][axis]) * size[axis];
+            let step = (quad[to][axis] - quad[from][axis]) * size[axis];
             sum += step * step;
         }
         sum
     };
+    let rows = [squared_step(0, 1), squared_step(2, 3)];
+    let columns = [squared_step(0, 2), squared_step(1, 3)];
     // log2 of a root is half the log2.
-    0.5 * f32::max(squared_step(1), squared_step(2)).log2() + sampler.lod_bias
+    std::array::from_fn(|lane| {
+        let longer: f32 = f32::max(rows[lane / 2], columns[lane % 2]);
+        0.5 * longer.log2() + sampler.lod_bias
+    })
 }

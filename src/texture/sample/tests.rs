@@ -267,35 +267,58 @@ fn lambda_chooses_between_mag_and_min() {
 fn lambda_of_known_quads() {
     let texture = numbered_levels();
     let mut sampler = Sampler::default();
-    let lod = |sampler: &Sampler, quad| level_of_detail(&texture, sampler, &quad);
-    // A step of 2/8 in u is two texels: λ = 1. The longer step (down, 4 texels in v) counts: λ = 2.
+    let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
+    let lod = |sampler: &Sampler, quad| levels_of_detail(&texture, sampler, &quad);
+    // A step of 2/8 in u is two texels, one of 1/8 in v is one: the longer counts, λ = 1.
     let across = [
         [0.0; 3],
         [0.25, 0.0, 9.0],
         [0.0, 0.125, 0.0],
         [0.25, 0.125, 0.0],
     ];
-    assert_eq!(lod(&sampler, across), 1.0);
-    let down = [[0.5; 3], [0.75, 0.5, 0.5], [0.5, 0.0, 0.5], [0.0; 3]];
-    assert_eq!(lod(&sampler, down), 2.0);
-    // A slanted step of 3 and 4 texels is 5 long.
+    assert_eq!(lod(&sampler, across), [1.0; 4]);
+    // Rows of 2 and 4 texels, columns of 4 and √(6² + 4²) = √52 texels.
+    let crooked = [[0.5; 3], [0.75, 0.5, 0.5], [0.5, 0.0, 0.5], [0.0; 3]];
+    let [a, b, c, d] = lod(&sampler, crooked);
+    assert_eq!([a, c], [2.0; 2]);
+    assert!([b, d].into_iter().all(|lod| near(lod, 0.5 * 52f32.log2())));
+    // A slanted step of 3 and 4 texels is 5 long; the third pixel has no step at all.
     let slanted = [[0.0; 3], [0.375, 0.5, 0.0], [0.0; 3], [0.0; 3]];
-    assert!((lod(&sampler, slanted) - 5f32.log2()).abs() < 1e-6);
-    assert_eq!(lod(&sampler, [[0.3; 3]; 4]), f32::NEG_INFINITY);
+    let [a, b, c, d] = lod(&sampler, slanted);
+    assert!([a, b, d].into_iter().all(|lod| near(lod, 5f32.log2())));
+    assert_eq!(c, f32::NEG_INFINITY);
     sampler.lod_bias = -0.5;
-    assert_eq!(lod(&sampler, across), 0.5);
+    assert_eq!(lod(&sampler, across), [0.5; 4]);
 
     let cube = Texture::from_texels(Cube, Format::L8, [4, 4, 1], &[[[0.0; 4]; 96]]).unwrap();
+    let lod = |quad| levels_of_detail(&cube, &Sampler::default(), &quad);
     // On +Z from (0,0,1) to (0.5,0,1): sc 0 → 0.5, u by 0.25, one texel: λ = 0; the same direction longer is the same.
-    let quad = [[0.0, 0.0, 1.0], [1.0, 0.0, 2.0], [0.0, 0.0, 3.0], [0.0; 3]];
-    assert_eq!(level_of_detail(&cube, &Sampler::default(), &quad), 0.0);
-    // Across the edge to +X: from sc = 1 to (1.5, 0, 1) on the plane of +Z, sc = 1.5: again one texel.
-    let quad = [[1.0, 0.0, 1.0], [3.0, 0.0, 2.0], [1.0, 0.0, 1.0], [0.0; 3]];
-    assert_eq!(level_of_detail(&cube, &Sampler::default(), &quad), 0.0);
+    let quad = [
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 2.0],
+        [0.0, 0.0, 3.0],
+        [2.0, 0.0, 4.0],
+    ];
+    assert_eq!(lod(quad), [0.0; 4]);
+    // Across the edge to +X. On the plane of +Z: from sc = 1 to (1.5, 0, 1), sc = 1.5, again one texel. On that of +X the
+    // second pixel is at sc = −2/3 and the first at −1: u by 1/6, two thirds of a texel.
+    let quad = [
+        [1.0, 0.0, 1.0],
+        [3.0, 0.0, 2.0],
+        [1.0, 0.0, 1.0],
+        [3.0, 0.0, 2.0],
+    ];
+    let [a, b, c, d] = lod(quad);
+    assert_eq!([a, c], [0.0; 2]);
+    assert!(
+        [b, d]
+            .into_iter()
+            .all(|lod| near(lod, (2.0f32 / 3.0).log2()))
+    );
 }
 
 #[test]
-fn quads_share_one_level_and_lone_lanes_have_none() {
+fn quads_give_levels_and_lone_lanes_have_none() {
     let texture = numbered_levels();
     let sampler = Sampler {
         mip: MipFilter::Point,
