@@ -12,7 +12,9 @@ use super::state::fixed_state;
 use super::texture::{GpuTexture, SamplerState};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
 use crate::raster::{ShadeMode, Topology};
-use crate::scene::{Output, Pass, PreparedDraw, Progress, Rendered, Scene, Shader, clear_color};
+use crate::scene::{
+    Output, Pass, PreparedDraw, Progress, Rendered, Scene, Shader, TargetPicture, clear_color,
+};
 use crate::texture::{Format, Texture};
 use crate::wgsl::{self, Fog, Options, Points, Resource, StageOptions, Translation, translate};
 
@@ -48,6 +50,25 @@ impl<'d> Renderer<'d> {
         size: Option<[u32; 2]>,
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<RgbaImage, GpuError> {
+        self.render_all(scene, size, &[], progress)
+            .map(|(picture, _)| picture)
+    }
+
+    /// [`Renderer::render`], and what the render targets held, in the order in which they were drawn.
+    ///
+    /// Where `given` has a face of a target, everything that is drawn after it sees that instead of what was drawn. With
+    /// the pictures of [`Scene::render_all`] each target and the picture are drawn from the same inputs as on the CPU, and
+    /// a difference in one is not seen again in the next.
+    ///
+    /// # Errors
+    /// As for [`Renderer::render`], and [`GpuError::Render`] for given pictures that cannot become a texture.
+    pub fn render_all(
+        &mut self,
+        scene: &Scene,
+        size: Option<[u32; 2]>,
+        given: &[TargetPicture],
+        progress: &dyn Fn(Progress<'_>),
+    ) -> Result<(RgbaImage, Vec<TargetPicture>), GpuError> {
         let passes = scene.passes(size.unwrap_or(scene.size()));
         let total = passes.iter().map(|pass| pass.draws.len()).sum();
         let mut frame = Frame {
@@ -60,17 +81,28 @@ impl<'d> Renderer<'d> {
             total,
             progress,
         };
-        let mut picture = RgbaImage::new(0, 0);
+        let mut targets = Vec::new();
+        let mut result = RgbaImage::new(0, 0);
         for pass in &passes {
-            let drawn = frame.pass(pass)?;
+            let picture = frame.pass(pass)?;
             match pass.output {
-                Output::Picture => picture = drawn,
+                Output::Picture => result = picture,
                 Output::Target { target, face } => {
-                    frame.rendered.take_face(target, face, &drawn)?;
+                    let is_this =
+                        |given: &&TargetPicture| (given.target, given.face) == (target, face);
+                    let seen = given.iter().find(is_this).map(|given| &given.picture);
+                    frame
+                        .rendered
+                        .take_face(target, face, seen.unwrap_or(&picture))?;
+                    targets.push(TargetPicture {
+                        target,
+                        face,
+                        picture,
+                    });
                 }
             }
         }
-        Ok(picture)
+        Ok((result, targets))
     }
 }
 

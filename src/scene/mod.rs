@@ -42,7 +42,7 @@ pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
 pub use include::MAX_INCLUDES;
 pub use load::{MAX_DRAWS, MAX_ENTRIES};
 pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
-pub use render::{Progress, RenderError, RenderOptions, Show};
+pub use render::{Progress, RenderError, RenderOptions, Show, TargetPicture};
 #[cfg(feature = "gpu")]
 pub(crate) use rendered::{Rendered, clear_color};
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use image::RgbaImage;
+
 use super::Scene;
 use super::prepare::{Output, Pass, PreparedDraw};
 use super::rendered::{Rendered, clear_color};
@@ -29,6 +31,17 @@ pub struct Show {
     pub draw: Option<String>,
     /// The register of its pixel shader, and how it is shown.
     pub picture: RegisterPicture,
+}
+
+/// One face of a render target, as it was drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TargetPicture {
+    /// The target by its number in the scene.
+    pub target: usize,
+    /// 0, or 0 to 5 in a cube: +X, −X, +Y, −Y, +Z, −Z.
+    pub face: usize,
+    /// What it holds.
+    pub picture: RgbaImage,
 }
 
 /// How far the rendering of a scene is.
@@ -104,6 +117,19 @@ impl Scene {
         options: &RenderOptions,
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<Target, RenderError> {
+        self.render_all(options, progress)
+            .map(|(picture, _)| picture)
+    }
+
+    /// [`Scene::render`], and what the render targets held, in the order in which they were drawn.
+    ///
+    /// # Errors
+    /// As for [`Scene::render`].
+    pub fn render_all(
+        &self,
+        options: &RenderOptions,
+        progress: &dyn Fn(Progress<'_>),
+    ) -> Result<(Target, Vec<TargetPicture>), RenderError> {
         let [width, height] = options.size.unwrap_or(self.size);
         let picture = Target::new(width, height, ColorFormat::A8R8G8B8);
         let mut picture = picture.map_err(RenderError::Size)?;
@@ -119,13 +145,21 @@ impl Scene {
             total: passes.iter().map(|pass| pass.draws.len()).sum(),
             progress,
         };
+        let mut targets = Vec::new();
         for pass in &passes {
             match pass.output {
                 Output::Picture => renderer.pass(pass, shown, &mut picture)?,
-                Output::Target { target, face } => renderer.target(pass, target, face)?,
+                Output::Target { target, face } => {
+                    let picture = renderer.target(pass, target, face)?;
+                    targets.push(TargetPicture {
+                        target,
+                        face,
+                        picture,
+                    });
+                }
             }
         }
-        Ok(picture)
+        Ok((picture, targets))
     }
 
     /// Where in the picture's list the draw stands whose register is shown.
@@ -154,12 +188,19 @@ struct Renderer<'a> {
 
 impl Renderer<'_> {
     /// Renders a face of a target; with the last one it becomes a texture.
-    fn target(&mut self, pass: &Pass<'_>, number: usize, face: usize) -> Result<(), RenderError> {
+    fn target(
+        &mut self,
+        pass: &Pass<'_>,
+        number: usize,
+        face: usize,
+    ) -> Result<RgbaImage, RenderError> {
         let [width, height] = pass.size;
         let target = Target::new(width, height, ColorFormat::A8R8G8B8);
         let mut target = target.map_err(RenderError::Size)?;
         self.pass(pass, None, &mut target)?;
-        self.rendered.take_face(number, face, &target.to_image())
+        let picture = target.to_image();
+        self.rendered.take_face(number, face, &picture)?;
+        Ok(picture)
     }
 
     fn pass(
