@@ -99,21 +99,21 @@ fn inside(target: &Target, x: u32, y: u32) -> bool {
 
 /// What was found in the pixels inside triangles.
 #[derive(Debug, Default)]
-struct Found {
-    inside: usize,
+pub(crate) struct Found {
+    pub(crate) inside: usize,
     /// Pixels by their greatest difference, up to 255.
     counts: std::collections::BTreeMap<u8, usize>,
-    edges: usize,
-    edges_above_1: usize,
+    pub(crate) edges: usize,
+    pub(crate) edges_above_1: usize,
 }
 
 impl Found {
-    fn max(&self) -> u8 {
+    pub(crate) fn max(&self) -> u8 {
         self.counts.keys().next_back().copied().unwrap_or(0)
     }
 }
 
-fn differences(cpu: &Target, gpu: &RgbaImage) -> Found {
+pub(crate) fn differences(cpu: &Target, gpu: &RgbaImage) -> Found {
     let mut found = Found::default();
     for (x, y, pixel) in gpu.enumerate_pixels() {
         let color = cpu.color(x, y).expect("the pictures have one size");

@@ -5,6 +5,7 @@
 
 mod arithmetic;
 mod frames;
+mod states;
 
 use texcrd::gpu::Device;
 
