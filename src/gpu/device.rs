@@ -58,7 +58,10 @@ impl fmt::Display for AdapterInfo {
 /// The adapters in the order in which one is chosen: real GPUs before software, then as the system lists them. OpenGL
 /// counts only where there is nothing else.
 fn ordered() -> Vec<(wgpu::Adapter, AdapterInfo)> {
-    let of = |backends| {
+    // The switch that programs with `wgpu` share, for whoever wants OpenGL, or nothing.
+    let allowed = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::all());
+    let of = |backends: wgpu::Backends| {
+        let backends = backends & allowed;
         let mut description = wgpu::InstanceDescriptor::new_without_display_handle();
         description.backends = backends;
         // Checks by the driver's own layers are for those who write drivers, and print to the terminal.
@@ -87,7 +90,8 @@ fn ordered() -> Vec<(wgpu::Adapter, AdapterInfo)> {
 }
 
 /// The adapters of this machine, those first that are chosen first. Those of OpenGL are listed only where there are no
-/// others.
+/// others. The environment variable `WGPU_BACKEND` (`vulkan`, `gl`, `metal`, `dx12`, separated by commas) leaves only the
+/// adapters of these.
 pub fn adapters() -> Vec<AdapterInfo> {
     ordered().into_iter().map(|(_, info)| info).collect()
 }
@@ -191,14 +195,16 @@ impl Device {
     /// # Errors
     /// [`GpuError::Lost`] for ever after a loss, [`GpuError::Device`] once.
     pub(super) fn check(&self) -> Result<(), GpuError> {
-        let mut complaints = (self.complaints.lock()).unwrap_or_else(PoisonError::into_inner);
-        if let Some(reason) = &complaints.lost {
+        let complaints = || (self.complaints.lock()).unwrap_or_else(PoisonError::into_inner);
+        let error = complaints().error.take();
+        if error.is_some() {
+            // What is sent to a lost device is refused before the loss is told, which happens in here.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
+        if let Some(reason) = &complaints().lost {
             return Err(GpuError::Lost(reason.clone()));
         }
-        match complaints.error.take() {
-            Some(error) => Err(GpuError::Device(error)),
-            None => Ok(()),
-        }
+        error.map_or(Ok(()), |error| Err(GpuError::Device(error)))
     }
 
     /// Refuses a picture or texture that the device cannot hold.

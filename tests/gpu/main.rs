@@ -6,6 +6,7 @@
 mod arithmetic;
 mod frames;
 mod states;
+mod trouble;
 
 use texcrd::gpu::Device;
 
