@@ -64,7 +64,7 @@ mod vertex;
 
 pub use error::TranslateError;
 pub use layout::{Field, UniformField};
-pub use options::{Fog, Options, Points, StageOptions};
+pub use options::{Fog, Observed, Options, Points, StageOptions};
 pub use reflection::{
     Binding, Definition, Dimension, Reflection, Resource, StageReflection, Varying, VertexInput,
 };
@@ -138,6 +138,7 @@ pub fn translate(
         let writes_depth = pixel.stage.kernel.writes_depth();
         sections.extend(pixel::output_structure(writes_depth).map(String::from));
     }
+    sections.extend(observed_variables(&parts, options));
     let mut helpers = Helpers::default();
     parts.iter().for_each(|part| helpers.add(&part.helpers));
     sections.extend(Some(helpers.text()).filter(|text| !text.is_empty()));
@@ -147,12 +148,30 @@ pub fn translate(
         reflection: Reflection {
             inputs: vertex.as_ref().map_or(Vec::new(), Part::inputs),
             varyings: varyings.list(),
+            position: varyings.position,
             vertex: vertex.as_ref().map(|part| part.reflection.clone()),
             pixel: pixel.as_ref().map(|part| part.reflection.clone()),
             bindings,
             baked: options.clone(),
         },
     })
+}
+
+/// What registers are left in that are looked at, and the switch that keeps pixels.
+fn observed_variables(parts: &[&Part<'_>], options: &Options) -> Option<String> {
+    let observed = options.observed.as_ref()?;
+    let mut lines = String::new();
+    for part in parts {
+        let count = observed.of(part.kind()).len();
+        let name = Observed::variable(part.kind());
+        if count > 0 {
+            lines.push_str(&format!("var<private> {name}: array<vec4f, {count}>;\n"));
+        }
+        if part.reflection.discards {
+            lines.push_str("var<private> keep: bool;\n");
+        }
+    }
+    (!lines.is_empty()).then_some(lines)
 }
 
 fn check(
