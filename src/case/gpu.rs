@@ -1,6 +1,7 @@
 //! The GPU's way to run the invocations of a case.
 
 use super::run::{slot_of, unsized_point, without_vertex_shader};
+use super::slack::Slack;
 use super::{Case, Invocation, Observed, Quantity, Value, Verdict, judge, observe};
 use crate::exec::{self, bind_constants, overrides_definitions};
 use crate::gpu::{Device, GpuError, InvocationInputs, Invocations, Seen, Shading, stage_options};
@@ -15,6 +16,7 @@ use crate::wgsl::{Observed as Registers, Options, Stage, Translation, translate}
 #[derive(Debug)]
 pub struct OnGpu<'d> {
     invocations: Invocations<'d>,
+    float_filtering: bool,
 }
 
 /// What shaders of a kind are asked for, in the order of the registers that are looked at.
@@ -27,6 +29,7 @@ impl<'d> OnGpu<'d> {
     pub fn new(device: &'d Device) -> Self {
         Self {
             invocations: Invocations::new(device),
+            float_filtering: device.adapter().float_filtering,
         }
     }
 
@@ -41,7 +44,12 @@ impl<'d> OnGpu<'d> {
                 observe(case, invocation).origin(quantity, component)
             })
         };
-        Ok(case.invocations.iter().zip(&observed).map(verdict).collect())
+        Ok(case
+            .invocations
+            .iter()
+            .zip(&observed)
+            .map(verdict)
+            .collect())
     }
 
     /// Runs all invocations of a case: the translations of its shaders, linked if there are two, each invocation as a point
@@ -50,18 +58,25 @@ impl<'d> OnGpu<'d> {
     /// # Errors
     /// [`GpuError`] for what the device cannot do, and for what it reports.
     pub fn observe(&mut self, case: &Case) -> Result<Vec<Observed>, GpuError> {
-        let inputs: Vec<InvocationInputs> =
-            case.invocations.iter().map(|one| inputs(case, one)).collect();
-        let wanted: Vec<Quantity> =
-            case.invocations.iter().flat_map(Invocation::wanted).collect();
+        let inputs: Vec<InvocationInputs> = case
+            .invocations
+            .iter()
+            .map(|one| inputs(case, one))
+            .collect();
+        let wanted: Vec<Quantity> = case
+            .invocations
+            .iter()
+            .flat_map(Invocation::wanted)
+            .collect();
         let mut observed = vec![Observed::default(); inputs.len()];
-        let mut expected = case.invocations.iter().flat_map(|one| {
-            std::iter::once(&one.expect).chain(&one.accept)
-        });
+        let mut expected = case
+            .invocations
+            .iter()
+            .flat_map(|one| std::iter::once(&one.expect).chain(&one.accept));
         let killed = expected.any(|expectation| expectation.killed.is_some());
         if killed || wanted.iter().any(|quantity| *quantity != Quantity::Frame) {
-            let [vertex, pixel] = [ShaderKind::Vertex, ShaderKind::Pixel]
-                .map(|kind| Asked::of(case, kind, &wanted));
+            let [vertex, pixel] =
+                [ShaderKind::Vertex, ShaderKind::Pixel].map(|kind| Asked::of(case, kind, &wanted));
             let registers = Registers {
                 vertex: vertex.slots(),
                 pixel: pixel.slots(),
@@ -72,7 +87,9 @@ impl<'d> OnGpu<'d> {
             let seen = self.invocations.registers(&shading, &inputs)?;
             for (observed, seen) in observed.iter_mut().zip(&seen) {
                 let numbers = vertex.values(case, &seen.vertex);
-                let numbers = numbers.chain(pixel.values(case, &seen.pixel)).chain(depth(seen));
+                let numbers = numbers
+                    .chain(pixel.values(case, &seen.pixel))
+                    .chain(depth(seen));
                 observed.killed = seen.depth.is_none();
                 observed.values.extend(numbers.map(value));
             }
@@ -80,17 +97,23 @@ impl<'d> OnGpu<'d> {
         if wanted.contains(&Quantity::Frame) {
             let options = options(case, &inputs, Registers::default()).with_state(&case.state);
             // A point by itself is not clipped.
-            let options = Options { clip_planes: 0, ..options };
+            let options = Options {
+                clip_planes: 0,
+                ..options
+            };
             let translation = translation(case, &options)?;
             let shading = shading(case, &translation);
             let frames = self.invocations.frames(&shading, &inputs, case.clear)?;
             for (observed, frame) in observed.iter_mut().zip(frames) {
                 observed.stored = frame.map(|channel| f32::from(channel) / 255.0);
-                observed.values.push(value((Quantity::Frame, observed.stored)));
+                observed
+                    .values
+                    .push(value((Quantity::Frame, observed.stored)));
             }
         }
+        let slack = Slack::new(case, !self.float_filtering);
         for (invocation, observed) in case.invocations.iter().zip(&mut observed) {
-            super::slack::fill(case, invocation, observed);
+            slack.fill(invocation, observed);
         }
         Ok(observed)
     }
@@ -105,7 +128,9 @@ fn value((quantity, numbers): (Quantity, [f32; 4])) -> Value {
 }
 
 fn depth(seen: &Seen) -> impl Iterator<Item = (Quantity, [f32; 4])> {
-    let depth = seen.depth.map(|depth| (Quantity::Depth, [depth, 0.0, 0.0, 0.0]));
+    let depth = seen
+        .depth
+        .map(|depth| (Quantity::Depth, [depth, 0.0, 0.0, 0.0]));
     depth.into_iter()
 }
 
@@ -127,7 +152,8 @@ impl Asked {
             };
             let known = quantities.iter().any(|(known, _)| known == quantity);
             let slot = kernel.filter(|_| *of == kind && !known);
-            quantities.extend(slot.and_then(|kernel| Some((*quantity, slot_of(*register, kernel)?))));
+            quantities
+                .extend(slot.and_then(|kernel| Some((*quantity, slot_of(*register, kernel)?))));
         }
         Self { quantities }
     }
@@ -142,15 +168,18 @@ impl Asked {
         case: &'a Case,
         seen: &'a [[f32; 4]],
     ) -> impl Iterator<Item = (Quantity, [f32; 4])> + 'a {
-        self.quantities.iter().zip(seen).map(|((quantity, slot), seen)| {
-            let unsized_point = (case.vertex.as_ref())
-                .is_some_and(|shader| unsized_point(&shader.kernel, *slot));
-            let numbers = match unsized_point {
-                true => [case.state.point.size, 0.0, 0.0, 0.0],
-                false => quantity.as_compared(*seen),
-            };
-            (*quantity, numbers)
-        })
+        self.quantities
+            .iter()
+            .zip(seen)
+            .map(|((quantity, slot), seen)| {
+                let unsized_point = (case.vertex.as_ref())
+                    .is_some_and(|shader| unsized_point(&shader.kernel, *slot));
+                let numbers = match unsized_point {
+                    true => [case.state.point.size, 0.0, 0.0, 0.0],
+                    false => quantity.as_compared(*seen),
+                };
+                (*quantity, numbers)
+            })
     }
 }
 
@@ -174,8 +203,14 @@ fn inputs(case: &Case, invocation: &Invocation) -> InvocationInputs {
 /// What is baked into the translation, without render states.
 fn options(case: &Case, inputs: &[InvocationInputs], observed: Registers) -> Options {
     let overrides = |shader: &Option<Shader>, of: fn(&InvocationInputs) -> &[[f32; 4]]| {
-        let differs = |kernel: &Kernel| inputs.iter().any(|one| overrides_definitions(kernel, of(one)));
-        shader.as_ref().is_some_and(|shader| differs(&shader.kernel))
+        let differs = |kernel: &Kernel| {
+            inputs
+                .iter()
+                .any(|one| overrides_definitions(kernel, of(one)))
+        };
+        shader
+            .as_ref()
+            .is_some_and(|shader| differs(&shader.kernel))
     };
     Options {
         stages: (case.stages.each_ref())
@@ -194,20 +229,28 @@ fn is_wild(case: &Case, inputs: &[InvocationInputs]) -> bool {
     // Written so that NaN is wild.
     let wild = |number: f32| !(number.abs() <= Options::TAME);
     let any = |registers: &[[f32; 4]]| registers.as_flattened().iter().any(|x| wild(*x));
-    let inputs = inputs.iter().any(|one| {
-        any(&one.vertex) || any(&one.texcoords) || any(&one.vertex_constants)
-    });
+    let inputs = inputs
+        .iter()
+        .any(|one| any(&one.vertex) || any(&one.texcoords) || any(&one.vertex_constants));
     let stages = case.stages.iter().any(|stage| {
         let bump = &stage.bump;
         let states = [bump.luminance_scale, bump.luminance_offset];
         let texels = || {
-            let texture = stage.texture.as_ref().filter(|t| t.format() == Format::Rgba32F);
+            let texture = stage
+                .texture
+                .as_ref()
+                .filter(|t| t.format() == Format::Rgba32F);
             texture.is_some_and(|texture| {
-                let levels = (0..texture.level_count()).filter_map(|level| texture.level_bytes(level));
-                levels.flat_map(|bytes| {
-                    let floats = bytes.chunks_exact(4);
-                    floats.map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect::<Vec<_>>()
-                }).any(wild)
+                let levels =
+                    (0..texture.level_count()).filter_map(|level| texture.level_bytes(level));
+                levels
+                    .flat_map(|bytes| {
+                        let floats = bytes.chunks_exact(4);
+                        floats
+                            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+                            .collect::<Vec<_>>()
+                    })
+                    .any(wild)
             })
         };
         bump.matrix.into_iter().chain(states).any(wild) || texels()

@@ -34,7 +34,10 @@ mod values;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use approx::Approx;
 pub use approx::Precision;
+pub(crate) use bound::Sampling;
+pub(crate) use probe::Probe;
 pub use random::Random;
 pub use shrink::shrink;
 pub use textures::Textures;
@@ -68,7 +71,7 @@ pub struct Options {
     pub comparable: bool,
     /// How exact the executors are.
     pub precision: Precision,
-    /// Comparable shaders: the largest number that is computed.
+    /// Comparable shaders: the largest number that is computed; where it is infinite, infinities and NaN are, too.
     pub largest_value: f64,
     /// Comparable shaders: the largest bound of a number within ±1; of larger ones relative to their size.
     pub largest_error: f64,
@@ -238,7 +241,8 @@ impl Generated {
         let probe = if options.comparable {
             let start = probe::Probe::new(&self.inputs);
             let stages = &self.stages;
-            Some(start.after(kernel, 0, &environment, stages, textures, options)?)
+            let gentle = bound::Gentle { stages, textures };
+            Some(start.after(kernel, 0, &environment, &gentle, options)?)
         } else {
             None
         };

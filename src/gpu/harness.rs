@@ -40,7 +40,13 @@ impl Rows {
         let none = Observed::default();
         let observed = reflection.baked.observed.as_ref().unwrap_or(&none);
         let (vertex, pixel) = match look {
-            Look::Color => return Self { vertex: 1, pixel: 1, count: 1 },
+            Look::Color => {
+                return Self {
+                    vertex: 1,
+                    pixel: 1,
+                    count: 1,
+                };
+            }
             Look::Registers => (observed.vertex.len(), observed.pixel.len()),
         };
         let first = if has_pixel { 2 } else { 0 };
@@ -55,14 +61,26 @@ impl Rows {
 /// The locations that the attributes of an invocation are fed to: registers of the vertex shader, or varyings.
 pub(super) fn locations(reflection: &Reflection) -> Vec<u32> {
     match reflection.vertex {
-        Some(_) => reflection.inputs.iter().map(|input| input.register).collect(),
-        None => reflection.varyings.iter().map(|varying| varying.location).collect(),
+        Some(_) => reflection
+            .inputs
+            .iter()
+            .map(|input| input.register)
+            .collect(),
+        None => reflection
+            .varyings
+            .iter()
+            .map(|varying| varying.location)
+            .collect(),
     }
 }
 
 /// The translation with entry points. Every pixel of a picture of this size is a primitive of its own, whose values
 /// are constant; instance i of a draw begins at pixel i times the number of rows.
-pub(super) fn with_entries(translation: &Translation, look: Look, [width, height]: [u32; 2]) -> Translation {
+pub(super) fn with_entries(
+    translation: &Translation,
+    look: Look,
+    [width, height]: [u32; 2],
+) -> Translation {
     let rows = Rows::of(translation, look);
     let reflection = &translation.reflection;
     let mut source = translation.source.clone();
@@ -74,7 +92,10 @@ pub(super) fn with_entries(translation: &Translation, look: Look, [width, height
     let mut complete = translation.clone();
     complete.source = source;
     let named = |stage: &Option<StageReflection>, entry: &str| {
-        let any = stage.as_ref().or(reflection.vertex.as_ref()).or(reflection.pixel.as_ref());
+        let any = stage
+            .as_ref()
+            .or(reflection.vertex.as_ref())
+            .or(reflection.pixel.as_ref());
         any.map(|stage| StageReflection {
             entry: entry.into(),
             ..stage.clone()
@@ -98,17 +119,30 @@ fn interface(text: &mut String, reflection: &Reflection) -> std::fmt::Result {
     if reflection.vertex.is_none() && !reflection.varyings.is_empty() {
         writeln!(text, "struct InvocationInput {{")?;
         for varying in &reflection.varyings {
-            writeln!(text, "    @location({}) {}: vec4f,", varying.location, varying.name)?;
+            writeln!(
+                text,
+                "    @location({}) {}: vec4f,",
+                varying.location, varying.name
+            )?;
         }
         writeln!(text, "}}\n")?;
     }
-    writeln!(text, "struct Invocation {{\n    @builtin(position) place: vec4f,")?;
+    writeln!(
+        text,
+        "struct Invocation {{\n    @builtin(position) place: vec4f,"
+    )?;
     for varying in &reflection.varyings {
         let (location, name, of) = (varying.location, &varying.name, type_of(varying.components));
-        writeln!(text, "    @location({location}) @interpolate(flat) {name}: {of},")?;
+        writeln!(
+            text,
+            "    @location({location}) @interpolate(flat) {name}: {of},"
+        )?;
     }
     writeln!(text, "    @location({ROW}) @interpolate(flat) row: u32,")?;
-    writeln!(text, "    @location({SEEN}) @interpolate(flat) seen: vec4f,\n}}\n")
+    writeln!(
+        text,
+        "    @location({SEEN}) @interpolate(flat) seen: vec4f,\n}}\n"
+    )
 }
 
 fn vertex_entry(
@@ -123,7 +157,10 @@ fn vertex_entry(
         (Some(_), true) => ", in: VertexInput",
         (None, true) => ", in: InvocationInput",
     };
-    writeln!(text, "@vertex\nfn {VERTEX}(@builtin(vertex_index) corner: u32, @builtin(instance_index) i: u32{input}) -> Invocation {{")?;
+    writeln!(
+        text,
+        "@vertex\nfn {VERTEX}(@builtin(vertex_index) corner: u32, @builtin(instance_index) i: u32{input}) -> Invocation {{"
+    )?;
     writeln!(text, "    var out: Invocation;\n    var depth = 0.0;")?;
     match &reflection.vertex {
         Some(stage) => {
@@ -131,7 +168,10 @@ fn vertex_entry(
             writeln!(text, "    let shaded = {}({arguments});", stage.entry)?;
             // Nothing is clipped: a depth beyond the ends is taken to them, as is one that is no number.
             writeln!(text, "    let z = shaded.position.z / shaded.position.w;")?;
-            writeln!(text, "    depth = select(select(0.0, z, z > 0.0), 1.0, z >= 1.0);")?;
+            writeln!(
+                text,
+                "    depth = select(select(0.0, z, z > 0.0), 1.0, z >= 1.0);"
+            )?;
             for varying in &reflection.varyings {
                 writeln!(text, "    out.{0} = shaded.{0};", varying.name)?;
             }
@@ -147,7 +187,11 @@ fn vertex_entry(
     if rows.pixel > rows.vertex {
         let (first, end) = (rows.vertex, rows.pixel);
         writeln!(text, "    if out.row >= {first}u && out.row < {end}u {{")?;
-        writeln!(text, "        out.seen = {}[out.row - {first}u];\n    }}", Observed::VERTEX)?;
+        writeln!(
+            text,
+            "        out.seen = {}[out.row - {first}u];\n    }}",
+            Observed::VERTEX
+        )?;
     }
     // A triangle around the centre of the pixel that reaches no other centre.
     writeln!(
@@ -163,9 +207,17 @@ fn vertex_entry(
     )
 }
 
-fn pixel_entry(text: &mut String, reflection: &Reflection, rows: Rows, look: Look) -> std::fmt::Result {
+fn pixel_entry(
+    text: &mut String,
+    reflection: &Reflection,
+    rows: Rows,
+    look: Look,
+) -> std::fmt::Result {
     let Some(stage) = &reflection.pixel else {
-        return writeln!(text, "@fragment\nfn {PIXEL}(in: Invocation) -> @location(0) vec4f {{\n    return in.seen;\n}}");
+        return writeln!(
+            text,
+            "@fragment\nfn {PIXEL}(in: Invocation) -> @location(0) vec4f {{\n    return in.seen;\n}}"
+        );
     };
     let result = match stage.writes_depth {
         true => "PixelOutput",
@@ -195,12 +247,22 @@ fn pixel_entry(text: &mut String, reflection: &Reflection, rows: Rows, look: Loo
         false => "shaded",
     };
     writeln!(text, "    var seen = in.seen;")?;
-    writeln!(text, "    if in.row == 0u {{\n        seen = vec4f(1.0);\n    }}")?;
-    writeln!(text, "    if in.row == 1u {{\n        seen = {color};\n    }}")?;
+    writeln!(
+        text,
+        "    if in.row == 0u {{\n        seen = vec4f(1.0);\n    }}"
+    )?;
+    writeln!(
+        text,
+        "    if in.row == 1u {{\n        seen = {color};\n    }}"
+    )?;
     if rows.count > rows.pixel {
         let first = rows.pixel;
         writeln!(text, "    if in.row >= {first}u {{")?;
-        writeln!(text, "        seen = {}[in.row - {first}u];\n    }}", Observed::PIXEL)?;
+        writeln!(
+            text,
+            "        seen = {}[in.row - {first}u];\n    }}",
+            Observed::PIXEL
+        )?;
     }
     match stage.writes_depth {
         true => writeln!(text, "    return PixelOutput(seen, shaded.depth);\n}}"),

@@ -106,9 +106,12 @@ impl<'d> Invocations<'d> {
             });
             let texels: Vec<[f32; 4]> = texels.collect();
             let depths: Vec<f32> = depths.chunks_exact(4).map(number).collect();
-            let invocations = texels.chunks_exact(rows.count).zip(depths.chunks_exact(rows.count));
+            let invocations = texels
+                .chunks_exact(rows.count)
+                .zip(depths.chunks_exact(rows.count));
             seen.extend(invocations.take(some.len()).map(|(texels, depths)| {
-                let of = |range: std::ops::Range<usize>| texels.get(range).unwrap_or_default().to_vec();
+                let of =
+                    |range: std::ops::Range<usize>| texels.get(range).unwrap_or_default().to_vec();
                 Seen {
                     color: texels.get(1).copied().unwrap_or_default(),
                     depth: (texels[0] != [0.0; 4]).then(|| depths[0]),
@@ -156,7 +159,9 @@ impl<'d> Invocations<'d> {
             state,
         };
         if translation.reflection.baked.observed.is_none() {
-            return Err(unsupported("a translation with entry points of its own".into()));
+            return Err(unsupported(
+                "a translation with entry points of its own".into(),
+            ));
         }
         if inputs.is_empty() {
             return Ok((Vec::new(), Vec::new()));
@@ -168,7 +173,8 @@ impl<'d> Invocations<'d> {
         let complete = with_entries(translation, look, size);
         let state = state(shading.state, look);
         let depth = depth_format(device, state.stencil.enable);
-        let fixed = fixed_state(&state, Topology::TriangleList, depth, false).map_err(unsupported)?;
+        let fixed =
+            fixed_state(&state, Topology::TriangleList, depth, false).map_err(unsupported)?;
         let format = match look {
             Look::Color => COLOR_FORMAT,
             Look::Registers => wgpu::TextureFormat::Rgba32Float,
@@ -277,7 +283,13 @@ fn uniforms(
 ) -> Vec<(wgpu::BindGroup, std::ops::Range<u32>)> {
     let same = |a: &InvocationInputs, b: &InvocationInputs| {
         // By bits, so that NaN is the same as itself.
-        let bits = |constants: &[[f32; 4]]| constants.as_flattened().iter().map(|c| c.to_bits()).collect::<Vec<_>>();
+        let bits = |constants: &[[f32; 4]]| {
+            constants
+                .as_flattened()
+                .iter()
+                .map(|c| c.to_bits())
+                .collect::<Vec<_>>()
+        };
         bits(&a.vertex_constants) == bits(&b.vertex_constants)
             && bits(&a.pixel_constants) == bits(&b.pixel_constants)
     };
@@ -302,7 +314,10 @@ fn uniforms(
                 viewport: [1.0; 2],
                 stages,
             };
-            places.push((binding.binding, arena.push(&uniforms.block(&binding.resource))));
+            places.push((
+                binding.binding,
+                arena.push(&uniforms.block(&binding.resource)),
+            ));
         }
         let end = first + some.len() as u32;
         draws.push((places, first..end));
@@ -319,7 +334,11 @@ fn uniforms(
 }
 
 /// The content of the vertex buffer.
-fn attributes(translation: &Translation, locations: &[u32], inputs: &[InvocationInputs]) -> Vec<u8> {
+fn attributes(
+    translation: &Translation,
+    locations: &[u32],
+    inputs: &[InvocationInputs],
+) -> Vec<u8> {
     let has_vertex = translation.reflection.vertex.is_some();
     let value = |input: &InvocationInputs, location: usize| -> [f32; 4] {
         if has_vertex {
@@ -331,7 +350,11 @@ fn attributes(translation: &Translation, locations: &[u32], inputs: &[Invocation
     };
     inputs
         .iter()
-        .flat_map(|input| locations.iter().map(move |location| value(input, *location as usize)))
+        .flat_map(|input| {
+            locations
+                .iter()
+                .map(move |location| value(input, *location as usize))
+        })
         .flatten()
         .flat_map(f32::to_le_bytes)
         .collect()

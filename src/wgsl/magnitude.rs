@@ -6,9 +6,9 @@
 //!
 //! Assumed of what comes from outside: see [`super`], "What is assumed".
 
+use super::Options;
 use crate::isa::{ResultModifier, ShaderKind, SourceModifier, WriteMask};
 use crate::kernel::{Op, Operand, Place, SLOT_COUNT, Slot, Step};
-use super::Options;
 use std::collections::HashMap;
 
 /// A number that may be infinite or NaN.
@@ -58,11 +58,7 @@ pub(super) struct Outcome {
 }
 
 impl Magnitudes {
-    pub(super) fn new(
-        kind: ShaderKind,
-        known: HashMap<u32, [f32; 4]>,
-        options: &Options,
-    ) -> Self {
+    pub(super) fn new(kind: ShaderKind, known: HashMap<u32, [f32; 4]>, options: &Options) -> Self {
         let outside = if options.wild_inputs {
             UNBOUNDED
         } else {
