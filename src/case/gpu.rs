@@ -1,7 +1,7 @@
 //! The GPU's way to run the invocations of a case.
 
 use super::run::{slot_of, unsized_point, without_vertex_shader};
-use super::slack::Slack;
+use super::slack::{Slack, each_texel};
 use super::{Case, Invocation, Observed, Quantity, Value, Verdict, judge, observe};
 use crate::exec::{self, bind_constants, overrides_definitions};
 use crate::gpu::{Device, GpuError, InvocationInputs, Invocations, Seen, Shading, stage_options};
@@ -9,7 +9,6 @@ use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Slot};
 use crate::raster::fog_unit;
 use crate::scene::Shader;
-use crate::texture::Format;
 use crate::wgsl::{Observed as Registers, Options, Stage, Translation, translate};
 
 /// Runs cases on a GPU. What can be kept from case to case is kept.
@@ -226,8 +225,7 @@ fn options(case: &Case, inputs: &[InvocationInputs], observed: Registers) -> Opt
 
 /// Whether something that goes in is infinite, NaN or beyond what translations take for granted.
 fn is_wild(case: &Case, inputs: &[InvocationInputs]) -> bool {
-    // Written so that NaN is wild.
-    let wild = |number: f32| !(number.abs() <= Options::TAME);
+    let wild = |number: f32| number.is_nan() || number.abs() > Options::TAME;
     let any = |registers: &[[f32; 4]]| registers.as_flattened().iter().any(|x| wild(*x));
     let inputs = inputs
         .iter()
@@ -236,22 +234,12 @@ fn is_wild(case: &Case, inputs: &[InvocationInputs]) -> bool {
         let bump = &stage.bump;
         let states = [bump.luminance_scale, bump.luminance_offset];
         let texels = || {
-            let texture = stage
-                .texture
-                .as_ref()
-                .filter(|t| t.format() == Format::Rgba32F);
-            texture.is_some_and(|texture| {
-                let levels =
-                    (0..texture.level_count()).filter_map(|level| texture.level_bytes(level));
-                levels
-                    .flat_map(|bytes| {
-                        let floats = bytes.chunks_exact(4);
-                        floats
-                            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-                            .collect::<Vec<_>>()
-                    })
-                    .any(wild)
-            })
+            let mut found = false;
+            let texture = stage.texture.as_ref();
+            if let Some(texture) = texture.filter(|texture| !texture.format().is_packed()) {
+                each_texel(texture, |texel| found |= texel.into_iter().any(wild));
+            }
+            found
         };
         bump.matrix.into_iter().chain(states).any(wild) || texels()
     });

@@ -208,7 +208,7 @@ impl Outputs {
     }
 
     fn of(kernel: &Kernel, probe: &Probe) -> Self {
-        let vertex = crate::raster::vertex_outputs(kernel, probe.machine(), 0);
+        let vertex = crate::raster::vertex_outputs(kernel, &probe.machine, 0);
         let errors = |slot: Option<Slot>| slot.map_or([0.0; 4], |slot| probe.errors(slot)[0]);
         let fog = errors(Some(Slot::FOG))[kernel.fog_component & 3];
         Self::new(&vertex, errors, errors(Some(Slot::POSITION)), fog)
@@ -297,7 +297,8 @@ fn texels(stage: &Stage<'_>, halves: bool) -> (f64, f64) {
     (off, apart)
 }
 
-fn each_texel(texture: &Texture, mut see: impl FnMut([f32; 4])) {
+/// Shows every texel of every level.
+pub(super) fn each_texel(texture: &Texture, mut see: impl FnMut([f32; 4])) {
     for level in 0..texture.level_count() {
         let [width, height, depth] = texture.level_size(level).unwrap_or_default();
         for face in 0..texture.face_count() {

@@ -34,13 +34,13 @@ mod values;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use approx::Approx;
 pub use approx::Precision;
-pub(crate) use bound::Sampling;
-pub(crate) use probe::Probe;
+// Bounds of shaders that were not generated.
 pub use random::Random;
 pub use shrink::shrink;
 pub use textures::Textures;
+#[cfg(feature = "gpu")]
+pub(crate) use {approx::Approx, bound::Sampling, probe::Probe};
 
 use crate::diagnostic::SourceMap;
 use crate::exec::{Environment, Machine, STAGES, bind_constants};

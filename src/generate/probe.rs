@@ -10,7 +10,7 @@ use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 /// All registers of all invocations after some instructions, with how far executors may be apart on them.
 #[derive(Clone)]
 pub(crate) struct Probe {
-    pub(super) machine: Machine<INVOCATIONS>,
+    pub(crate) machine: Machine<INVOCATIONS>,
     /// The error of each component of each slot, slot by slot, invocation by invocation.
     errors: Vec<[[f64; 4]; INVOCATIONS]>,
 }
@@ -34,16 +34,12 @@ impl Probe {
     }
 
     /// The same where a slot is known only roughly, in all invocations alike.
+    #[cfg(feature = "gpu")]
     pub(crate) fn with_errors(mut self, slot: Slot, errors: [f64; 4]) -> Self {
         if let Some(known) = self.errors.get_mut(slot.index()) {
             *known = [errors; INVOCATIONS];
         }
         self
-    }
-
-    /// The registers of all invocations.
-    pub(crate) fn machine(&self) -> &Machine<INVOCATIONS> {
-        &self.machine
     }
 
     /// The error bounds of a slot.
@@ -159,12 +155,13 @@ impl Probe {
             let values = self.machine.lane(step.destination, lane);
             for c in step.mask.components() {
                 let value = f64::from(values[c]);
-                if !value.is_finite() && options.largest_value == f64::INFINITY {
+                let error = Context::finish(step.result, bound[c]).error;
+                let finite = value.is_finite() && error.is_finite();
+                if !finite && options.largest_value == f64::INFINITY {
                     // No difference is small here: executors have the same or part.
                     errors[lane][c] = 0.0;
                     continue;
                 }
-                let error = Context::finish(step.result, bound[c]).error;
                 let near = error <= options.largest_error * value.abs().max(1.0);
                 // Written so that NaN is refused.
                 if !(value.abs() <= options.largest_value && near) {

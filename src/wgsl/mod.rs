@@ -37,8 +37,8 @@
 //!
 //! Direct3D 8 says that 0 times anything is 0, also times infinity. A product is guarded where a factor may be infinite or
 //! NaN, under these assumptions: vertex data, texture coordinates, vertex constants and stage states are finite and no
-//! larger than 65536; texels lie in −1…1 unless [`StageOptions::wide_texels`] says otherwise; a vector multiplied by the
-//! reciprocal of its own length, as `dp3`, `rsq`, `mul` compute it, is no longer than 1, that is, not shorter than 1e-19
+//! larger than 65536 unless [`Options::wild_inputs`] says otherwise; texels lie in −1…1 unless
+//! [`StageOptions::wide_texels`] does; a vector multiplied by the reciprocal of its own length, as `dp3`, `rsq`, `mul` compute it, is no longer than 1, that is, not shorter than 1e-19
 //! before unless it is 0.
 //!
 //! Left to the GPU: denormal results, the sign of zero, NaN in coordinates and in saturation (0 on all that is known),

@@ -4,7 +4,10 @@
 #![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 mod arithmetic;
+mod cases;
 mod frames;
+#[path = "../conformance/suite.rs"]
+mod suite;
 
 use texcrd::gpu::Device;
 
