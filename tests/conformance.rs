@@ -3,38 +3,13 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
-use texcrd::case::{Case, Verdict};
+use suite::cases;
+use texcrd::case::Verdict;
 use texcrd::isa::{Opcode, Version};
-use texcrd::scene::{DirectoryResolver, LoadOptions, Shader};
+use texcrd::scene::Shader;
 
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("the folder can be read") {
-        let path = entry.expect("its entries too").path();
-        if path.is_dir() {
-            files(&path, found);
-        } else if path.extension().is_some_and(|e| e == "toml" || e == "json") {
-            found.push(path);
-        }
-    }
-}
-
-fn cases() -> Vec<(String, Case)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/conformance");
-    let mut paths = Vec::new();
-    files(&root, &mut paths);
-    paths.sort();
-    (paths.iter())
-        .map(|path| {
-            let name = path.strip_prefix(&root).unwrap().display().to_string();
-            let bytes = fs::read(path).expect("a case can be read");
-            let resolver = DirectoryResolver::new(path.parent().expect("it lies in a folder"));
-            let case = Case::load(&name, &bytes, &resolver, &LoadOptions::default());
-            (name, case.unwrap_or_else(|error| panic!("{error}")))
-        })
-        .collect()
-}
+#[path = "conformance/suite.rs"]
+mod suite;
 
 #[test]
 fn every_case_passes() {

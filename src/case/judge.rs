@@ -1,6 +1,6 @@
 //! What was observed against what is expected.
 
-use super::{Expectation, Invocation, Observed, Origin, Quantity};
+use super::{Expectation, Invocation, Observed, Origin, Quantity, Value};
 
 /// What came of an invocation.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +35,8 @@ pub enum Wrong {
         actual: f32,
         /// The absolute difference; NaN if only one of the two is a number.
         difference: f64,
+        /// The largest difference that would have passed.
+        tolerance: f64,
         /// The instruction that wrote the number last; `None` if none did.
         origin: Option<Origin>,
     },
@@ -50,7 +52,7 @@ pub enum Wrong {
 /// Compares what an invocation gave with what it should give.
 ///
 /// Two numbers agree if they are the same, infinities included, if both are NaN, or if they differ by no more than the
-/// tolerance. For [`Quantity::Frame`] the number may also be that which a target of 8 bits a channel stores.
+/// tolerance of the invocation, or by no more than [`Value::slack`]. For [`Quantity::Frame`] the number may also be that which a target of 8 bits a channel stores.
 /// `origin(quantity, component)` tells where a number was born; it is asked only for wrong ones, with `None` for
 /// whether the pixel is discarded.
 pub fn judge(
@@ -91,13 +93,14 @@ fn compare(expect: &Expectation, tolerance: f64, observed: &Observed) -> Vec<Wro
     }
     for value in &expect.values {
         let quantity = value.quantity;
-        let actual = observed.value(quantity);
+        let Value { numbers, slack, .. } = observed.value(quantity);
         let stored = match quantity {
             Quantity::Frame => observed.stored,
-            _ => actual,
+            _ => numbers,
         };
         for (component, &expected) in value.components.iter().enumerate().take(4) {
-            let number = actual[component];
+            let number = numbers[component];
+            let tolerance = tolerance.max(slack[component]);
             if agrees(number, expected, tolerance) || agrees(stored[component], expected, tolerance)
             {
                 continue;
@@ -108,6 +111,7 @@ fn compare(expect: &Expectation, tolerance: f64, observed: &Observed) -> Vec<Wro
                 expected,
                 actual: number,
                 difference: (f64::from(number) - f64::from(expected)).abs(),
+                tolerance,
                 origin: None,
             });
         }

@@ -4,17 +4,21 @@
 //! its invocations on the CPU and tells what came of each.
 //!
 //! Running and judging are apart: [`observe`] is the CPU's way to an [`Observed`], and [`judge`] compares any
-//! `Observed` with what an invocation expects. Another way to run shaders only has to give an `Observed`. Where a wrong
+//! `Observed` with what an invocation expects. The GPU's way, `OnGpu`, only has to give `Observed`s as well. Where a wrong
 //! number was born is told by the trace of the CPU.
 //!
 //! Files, in the order of the data: `json` (JSON as the tree that TOML is read into), `read` (the tree to a [`Case`]),
-//! `quantity` (what can be expected), `run` (the CPU), `judge`.
+//! `quantity` (what can be expected), `run` (the CPU), `gpu` and `slack` (the GPU, and how far it may be off), `judge`.
 
+#[cfg(feature = "gpu")]
+mod gpu;
 mod json;
 mod judge;
 mod quantity;
 mod read;
 mod run;
+#[cfg(feature = "gpu")]
+mod slack;
 
 #[cfg(test)]
 mod tests;
@@ -27,10 +31,12 @@ use crate::semantics::BumpState;
 use crate::texture::{Sampler, Texture};
 
 pub use crate::scene::SceneError as CaseError;
+#[cfg(feature = "gpu")]
+pub use gpu::OnGpu;
 pub use judge::{Verdict, Wrong, judge};
 pub use quantity::Quantity;
 pub use read::{DEFAULT_TOLERANCE, MAX_INVOCATIONS};
-pub use run::{Observed, Origin, Run, observe};
+pub use run::{Observed, Origin, Run, Value, observe};
 
 /// A shader unit test, ready to run.
 #[derive(Clone, Debug)]
@@ -126,6 +132,21 @@ impl Expectation {
     /// Whether it expects nothing.
     fn is_empty(&self) -> bool {
         self.values.is_empty() && self.killed.is_none()
+    }
+}
+
+impl Invocation {
+    /// What it expects or accepts, each quantity once.
+    fn wanted(&self) -> Vec<Quantity> {
+        let mut wanted: Vec<Quantity> = Vec::new();
+        for expectation in std::iter::once(&self.expect).chain(&self.accept) {
+            for Expected { quantity, .. } in &expectation.values {
+                if !wanted.contains(quantity) {
+                    wanted.push(*quantity);
+                }
+            }
+        }
+        wanted
     }
 }
 

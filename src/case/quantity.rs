@@ -3,6 +3,8 @@
 use crate::isa::register::{OFOG, OPTS};
 use crate::isa::{FileSet, RegisterFile, ShaderKind, Version};
 use crate::program::{Register, letters};
+use crate::raster::fog_unit;
+use crate::semantics::saturate;
 use std::fmt;
 
 /// Something that an expectation gives numbers for.
@@ -57,6 +59,18 @@ impl Quantity {
             Self::Register(_, register) if is_scalar(register) => 1,
             Self::Depth => 1,
             _ => 4,
+        }
+    }
+
+    /// The numbers as they are compared: colours and fog as the rasterizer takes them.
+    pub(super) fn as_compared(self, numbers: [f32; 4]) -> [f32; 4] {
+        match self {
+            Self::Register(_, register) => match (register.file, register.index) {
+                (RegisterFile::RastOut, OFOG) => [fog_unit(numbers[0]), 0.0, 0.0, 0.0],
+                (RegisterFile::AttrOut, _) => numbers.map(saturate),
+                _ => numbers,
+            },
+            Self::Depth | Self::Frame => numbers,
         }
     }
 

@@ -2,9 +2,9 @@
 
 use super::{Case, Invocation, Quantity};
 use crate::exec::{Environment, Machine, Stage, Trace, bind_constants};
-use crate::isa::register::{OFOG, OPTS};
 use crate::isa::{RegisterFile, ShaderKind};
-use crate::kernel::Slot;
+use crate::kernel::{Kernel, Slot};
+use crate::program::Register;
 use crate::raster::{self, LonePixel, Vertex, fog_unit, merge_lone, vertex_outputs};
 use crate::scene::Shader;
 use crate::semantics::saturate;
@@ -12,20 +12,35 @@ use crate::semantics::saturate;
 /// What an invocation gave.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observed {
-    /// The numbers of the quantities that the invocation expects or accepts. A quantity of one number has it in the
-    /// first component.
-    pub values: Vec<(Quantity, [f32; 4])>,
+    /// The quantities that the invocation expects or accepts.
+    pub values: Vec<Value>,
     /// Whether the pixel was discarded by `texkill`.
     pub killed: bool,
     /// [`Quantity::Frame`] as a target of 8 bits a channel stores it, divided by 255.
     pub stored: [f32; 4],
 }
 
+/// What came out of one quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Value {
+    /// Of what.
+    pub quantity: Quantity,
+    /// Its components; a quantity of one number has it in the first.
+    pub numbers: [f32; 4],
+    /// How far each may be off though all is right, on an executor whose arithmetic is not specified to the bit: the
+    /// tolerance, where that of the invocation is smaller. 0 on the CPU.
+    pub slack: [f64; 4],
+}
+
 impl Observed {
-    /// The numbers of a quantity; zeros for one that was not asked for.
-    pub fn value(&self, quantity: Quantity) -> [f32; 4] {
-        let found = self.values.iter().find(|(known, _)| *known == quantity);
-        found.map_or([0.0; 4], |(_, value)| *value)
+    /// What came out of a quantity; zeros for one that was not asked for.
+    pub fn value(&self, quantity: Quantity) -> Value {
+        let found = self.values.iter().find(|value| value.quantity == quantity);
+        found.copied().unwrap_or(Value {
+            quantity,
+            numbers: [0.0; 4],
+            slack: [0.0; 4],
+        })
     }
 }
 
@@ -105,7 +120,7 @@ pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
 
 /// What stands for a vertex where no vertex shader runs: a point on the near plane whose fog is the alpha of its
 /// specular colour, as Direct3D takes it from vertices that no transformation gives a distance.
-fn without_vertex_shader(invocation: &Invocation) -> Vertex {
+pub(super) fn without_vertex_shader(invocation: &Invocation) -> Vertex {
     let [diffuse, specular] = invocation.colors;
     Vertex {
         position: glam::Vec4::W,
@@ -134,6 +149,22 @@ fn record<'a>(
     }
 }
 
+/// Where a register is at the end of a shader.
+pub(super) fn slot_of(register: Register, kernel: &Kernel) -> Option<Slot> {
+    let slot = Slot::of(register, kernel.version)?;
+    // What no texture instruction has written holds its coordinates.
+    let untouched = register.file == RegisterFile::Texture && kernel.written(slot).is_empty();
+    match Slot::texcoord(register.index as usize) {
+        Some(set) if untouched => Some(set),
+        _ => Some(slot),
+    }
+}
+
+/// Whether a slot is `oPts` of a shader that does not write it: then the size is that of the render states.
+pub(super) fn unsized_point(kernel: &Kernel, slot: Slot) -> bool {
+    slot == Slot::POINT_SIZE && kernel.written(slot).is_empty()
+}
+
 impl Run<'_> {
     /// Takes out what the invocation speaks of.
     fn collect(&mut self, invocation: &Invocation, outputs: &Vertex) {
@@ -159,19 +190,16 @@ impl Run<'_> {
             exact: clear,
             stored: [0; 4],
         });
-        let wanted = std::iter::once(&invocation.expect).chain(&invocation.accept);
-        let mut values: Vec<(Quantity, [f32; 4])> = Vec::new();
-        for quantity in wanted.flat_map(|e| e.values.iter().map(|value| value.quantity)) {
-            if values.iter().any(|(known, _)| *known == quantity) {
-                continue;
-            }
-            let value = match quantity {
-                Quantity::Register(..) => self.register(quantity, outputs),
+        let value = |quantity: Quantity| Value {
+            quantity,
+            numbers: match quantity {
+                Quantity::Register(..) => self.register(quantity),
                 Quantity::Depth => [replaced_z.unwrap_or(z), 0.0, 0.0, 0.0],
                 Quantity::Frame => merged.exact,
-            };
-            values.push((quantity, value));
-        }
+            },
+            slack: [0.0; 4],
+        };
+        let values = invocation.wanted().into_iter().map(value).collect();
         self.observed = Observed {
             values,
             killed,
@@ -180,19 +208,19 @@ impl Run<'_> {
     }
 
     /// A register at the end, as it is compared.
-    fn register(&self, quantity: Quantity, outputs: &Vertex) -> [f32; 4] {
-        let (Some((run, slot)), Quantity::Register(_, register)) = (self.place(quantity), quantity)
-        else {
+    fn register(&self, quantity: Quantity) -> [f32; 4] {
+        let Some((run, slot)) = self.place(quantity) else {
             return [0.0; 4];
         };
-        match (register.file, register.index) {
-            (RegisterFile::RastOut, OFOG) => [fog_unit(outputs.fog), 0.0, 0.0, 0.0],
-            (RegisterFile::RastOut, OPTS) => {
-                let size = outputs.point_size.unwrap_or(self.case.state.point.size);
-                [size, 0.0, 0.0, 0.0]
-            }
-            (RegisterFile::AttrOut, _) => run.machine.lane(slot, 0).map(saturate),
-            _ => run.machine.lane(slot, 0),
+        let lane = run.machine.lane(slot, 0);
+        let first = match slot {
+            Slot::FOG => run.shader.kernel.fog_component,
+            Slot::POINT_SIZE => run.shader.kernel.point_size_component,
+            _ => return quantity.as_compared(lane),
+        };
+        match unsized_point(&run.shader.kernel, slot) {
+            true => [self.case.state.point.size, 0.0, 0.0, 0.0],
+            false => quantity.as_compared([lane[first & 3], 0.0, 0.0, 0.0]),
         }
     }
 
@@ -210,14 +238,7 @@ impl Run<'_> {
             ShaderKind::Vertex => self.vertex.as_ref()?,
             ShaderKind::Pixel => self.pixel.as_ref()?,
         };
-        let kernel = &run.shader.kernel;
-        let slot = Slot::of(register, kernel.version)?;
-        // What no texture instruction has written holds its coordinates.
-        let untouched = register.file == RegisterFile::Texture && kernel.written(slot).is_empty();
-        match Slot::texcoord(register.index as usize) {
-            Some(set) if untouched => Some((run, set)),
-            _ => Some((run, slot)),
-        }
+        Some((run, slot_of(register, &run.shader.kernel)?))
     }
 
     /// The instruction that wrote a component of a quantity last; of [`Quantity::Frame`], the component of `r0` that it

@@ -1,12 +1,13 @@
 //! `test`: shader unit tests.
 
 use super::eval::json_number;
-use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json};
+use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json, scene};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use texcrd::case::{Case, CaseError, Invocation, Origin, Verdict, Wrong};
+use texcrd::case::{Case, CaseError, Invocation, OnGpu, Origin, Verdict, Wrong};
+use texcrd::gpu::GpuError;
 use texcrd::policy::Dialect;
 use texcrd::scene::{DirectoryResolver, LoadOptions};
 
@@ -22,6 +23,7 @@ Examples:
   texcrd test tests/conformance
   texcrd test my_shader.toml other.json
   texcrd test tests/conformance --filter texbem
+  texcrd test cases --on both                 on the CPU and on the GPU
   texcrd test cases --quiet                   failures and the summary only
   texcrd test cases --format json             one object a case
 
@@ -43,6 +45,9 @@ pub(super) struct Arguments {
     /// Where the shaders run.
     #[arg(long, value_enum, default_value_t)]
     on: On,
+    /// The GPU: its number in `texcrd adapters`, or a part of its name. Without it the first one.
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
     /// Do not tell of cases that pass.
     #[arg(short, long)]
     quiet: bool,
@@ -60,6 +65,36 @@ enum On {
     /// The interpreter.
     #[default]
     Cpu,
+    /// A GPU, or a software adapter, through WGSL.
+    Gpu,
+    /// One after the other; a case passes if it does on both.
+    Both,
+}
+
+/// One of the two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Cpu,
+    Gpu,
+}
+
+impl Side {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        }
+    }
+}
+
+impl On {
+    fn sides(self) -> &'static [Side] {
+        match self {
+            Self::Cpu => &[Side::Cpu],
+            Self::Gpu => &[Side::Gpu],
+            Self::Both => &[Side::Cpu, Side::Gpu],
+        }
+    }
 }
 
 /// How many cases came out how.
@@ -72,6 +107,16 @@ struct Counts {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let sides = arguments.on.sides();
+    let device = match (sides.contains(&Side::Gpu), &arguments.adapter) {
+        (true, adapter) => Some(scene::device(adapter.as_deref())?),
+        (false, None) => None,
+        (false, Some(_)) => {
+            let message = "--adapter: only with --on gpu or --on both";
+            return Err(Failure::Io(message.into()));
+        }
+    };
+    let mut on_gpu = device.as_ref().map(OnGpu::new);
     let mut paths = Vec::new();
     for path in &arguments.cases {
         if path != "-" && Path::new(path).is_dir() {
@@ -98,16 +143,28 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         }
         let result = match loaded {
             Ok(case) => {
-                let verdicts = match arguments.on {
-                    On::Cpu => case.check(),
-                };
-                Ok((case, verdicts))
+                let runs = sides.iter().map(|side| {
+                    let verdicts = match (side, &mut on_gpu) {
+                        (Side::Gpu, Some(gpu)) => gpu.check(&case),
+                        _ => Ok(case.check()),
+                    };
+                    (*side, verdicts)
+                });
+                let runs: Vec<SideRun> = runs.collect();
+                if let Some((_, Err(lost @ GpuError::Lost(_)))) = runs.last() {
+                    return Err(Failure::Io(format!("{path}: {lost}")));
+                }
+                Ok((case, runs))
             }
             Err(error) => Err(error),
         };
         counts.add(&result);
         match arguments.format {
-            Format::Json => print_json(&to_json(path, &result))?,
+            Format::Json => {
+                for object in to_json(path, &result) {
+                    print_json(&object)?;
+                }
+            }
             Format::Text => {
                 let line = line(path, &result);
                 if !arguments.quiet || !line.starts_with("ok") {
@@ -128,7 +185,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         if !failures.is_empty() {
             print(&format!("\n{failures}"))?;
         }
-        print(&counts.summary())?;
+        let adapter = device.map(|device| device.adapter().to_string());
+        print(&counts.summary(arguments.on, adapter.as_deref()))?;
     }
     if counts.failed > 0 {
         return Err(Failure::Rejected);
@@ -167,21 +225,33 @@ fn contains(text: &str, part: &str) -> bool {
     text.to_lowercase().contains(&part.to_lowercase())
 }
 
-type Ran = Result<(Case, Vec<Verdict>), Box<CaseError>>;
+/// What came of a case on one side, invocation by invocation.
+type SideRun = (Side, Result<Vec<Verdict>, GpuError>);
+type Ran = Result<(Case, Vec<SideRun>), Box<CaseError>>;
 
-/// How a whole case came out, in a word.
-fn outcome(ran: &Ran) -> &'static str {
-    match ran {
+/// How a case came out on one side, in a word.
+fn outcome((_, run): &SideRun) -> &'static str {
+    match run {
         Err(_) => "error",
-        Ok((_, verdicts)) if !verdicts.iter().all(Verdict::passes) => "failed",
-        Ok((_, verdicts)) if verdicts.iter().all(|v| *v == Verdict::Passed) => "passed",
+        Ok(verdicts) if !verdicts.iter().all(Verdict::passes) => "failed",
+        Ok(verdicts) if verdicts.iter().all(|v| *v == Verdict::Passed) => "passed",
         Ok(_) => "accepted",
     }
 }
 
+/// How a case came out on all sides: the worst of its outcomes.
+fn worst(ran: &Ran) -> &'static str {
+    let Ok((_, runs)) = ran else {
+        return "error";
+    };
+    let came = |what: &&str| runs.iter().any(|run| outcome(run) == *what);
+    let worst = ["error", "failed", "accepted"].into_iter().find(came);
+    worst.unwrap_or("passed")
+}
+
 impl Counts {
     fn add(&mut self, ran: &Ran) {
-        match outcome(ran) {
+        match worst(ran) {
             "passed" => self.passed += 1,
             "accepted" => {
                 self.passed += 1;
@@ -191,7 +261,7 @@ impl Counts {
         }
     }
 
-    fn summary(&self) -> String {
+    fn summary(&self, on: On, adapter: Option<&str>) -> String {
         let Self {
             passed,
             accepted,
@@ -201,17 +271,23 @@ impl Counts {
             0 => String::new(),
             _ => format!(" ({accepted} of those that passed by another accepted result)"),
         };
-        format!("{passed} passed, {failed} failed{apart}\n")
+        let place = match (on, adapter) {
+            (On::Both, Some(adapter)) => format!(" on cpu and gpu, {adapter}"),
+            (_, Some(adapter)) => format!(" on gpu, {adapter}"),
+            (_, None) => String::new(),
+        };
+        format!("{passed} passed, {failed} failed{apart}{place}\n")
     }
 }
 
 /// One line a case.
 fn line(path: &str, ran: &Ran) -> String {
     let path = files::name(path);
-    let (mark, name) = match (outcome(ran), ran) {
+    let (mark, name) = match (worst(ran), ran) {
         (_, Err(_)) => ("ERROR", String::new()),
         ("passed", Ok((case, _))) => ("ok", title(path, case)),
         ("accepted", Ok((case, _))) => ("ok, accepted", title(path, case)),
+        ("error", Ok((case, _))) => ("ERROR", title(path, case)),
         (_, Ok((case, _))) => ("FAILED", title(path, case)),
     };
     format!("{mark:<6} {path}{name}\n")
@@ -227,35 +303,36 @@ fn title(path: &str, case: &Case) -> String {
 
 /// What a person must know of a case that did not simply pass.
 fn details(path: &str, ran: &Ran) -> String {
-    let (case, verdicts) = match ran {
+    let (case, runs) = match ran {
         Ok(ran) => ran,
         Err(error) => return diagnostics::render(&error.sources, &error.diagnostics),
     };
     let path = files::name(path);
+    let title = title(path, case);
     let mut text = String::new();
-    for (number, (invocation, verdict)) in case.invocations.iter().zip(verdicts).enumerate() {
-        match verdict {
-            Verdict::Passed => {}
-            Verdict::Accepted(other) => {
-                let which = which(case, number, invocation);
-                text.push_str(&format!(
-                    "accepted: {path}:{}{}{which}: it gave result {} of `accept`\n\n",
-                    invocation.line,
-                    title(path, case),
-                    other + 1
-                ));
+    for (side, run) in runs {
+        let on = side.name();
+        let verdicts = match run {
+            Ok(verdicts) => verdicts,
+            Err(error) => {
+                text.push_str(&format!("error on {on}: {path}{title}: {error}\n\n"));
+                continue;
             }
-            Verdict::Failed(wrong) => {
-                let which = which(case, number, invocation);
-                let title = title(path, case);
-                text.push_str(&format!(
-                    "failed: {path}:{}{title}{which}\n",
-                    invocation.line
-                ));
-                for entry in wrong {
-                    text.push_str(&told(entry, invocation));
+        };
+        for (number, (invocation, verdict)) in case.invocations.iter().zip(verdicts).enumerate() {
+            let which = which(case, number, invocation);
+            let place = format!("{path}:{}{title}{which}", invocation.line);
+            match verdict {
+                Verdict::Passed => {}
+                Verdict::Accepted(other) => text.push_str(&format!(
+                    "accepted on {on}: {place}: it gave result {} of `accept`\n\n",
+                    other + 1
+                )),
+                Verdict::Failed(wrong) => {
+                    text.push_str(&format!("failed on {on}: {place}\n"));
+                    wrong.iter().for_each(|entry| text.push_str(&told(entry)));
+                    text.push('\n');
                 }
-                text.push('\n');
             }
         }
     }
@@ -271,7 +348,7 @@ fn which(case: &Case, number: usize, invocation: &Invocation) -> String {
     }
 }
 
-fn told(wrong: &Wrong, invocation: &Invocation) -> String {
+fn told(wrong: &Wrong) -> String {
     match wrong {
         Wrong::Number {
             quantity,
@@ -279,6 +356,7 @@ fn told(wrong: &Wrong, invocation: &Invocation) -> String {
             expected,
             actual,
             difference,
+            tolerance,
             origin,
         } => {
             let mut place = quantity.to_string();
@@ -288,10 +366,9 @@ fn told(wrong: &Wrong, invocation: &Invocation) -> String {
             }
             // A difference of many digits says no more than one of a few.
             let difference = if difference.is_finite() {
-                format!(
-                    ", off by {difference:.3e} (tolerance {:e})",
-                    invocation.tolerance
-                )
+                // Likewise of a tolerance that was worked out.
+                let tolerance = format!("{tolerance:.3e}").replace(".000", "");
+                format!(", off by {difference:.3e} (tolerance {tolerance})")
             } else {
                 String::new()
             };
@@ -324,24 +401,43 @@ fn place_of(origin: &Origin) -> String {
     format!("`{text}` ({listing}, line {line})")
 }
 
-/// A case for programs.
-fn to_json(path: &str, ran: &Ran) -> Value {
+/// A case for programs: an object for each side.
+fn to_json(path: &str, ran: &Ran) -> Vec<Value> {
     let file = files::name(path);
-    let (case, verdicts) = match ran {
-        Ok(ran) => ran,
+    match ran {
+        Ok((case, runs)) => runs.iter().map(|run| run_json(file, case, run)).collect(),
         Err(error) => {
             let diagnostics: Vec<Value> = (error.diagnostics.iter())
                 .map(|diagnostic| diagnostics::to_json(&error.sources, diagnostic))
                 .collect();
-            return json!({
+            vec![json!({
                 "file": file,
                 "name": null,
-                "outcome": outcome(ran),
+                "on": null,
+                "outcome": worst(ran),
                 "diagnostics": diagnostics,
-            });
+            })]
         }
-    };
-    let invocations: Vec<Value> = (case.invocations.iter().zip(verdicts).enumerate())
+    }
+}
+
+fn run_json(file: &str, case: &Case, run: &SideRun) -> Value {
+    let (side, result) = run;
+    let mut object = json!({
+        "file": file,
+        "name": case.name,
+        "on": side.name(),
+        "outcome": outcome(run),
+    });
+    match result {
+        Ok(verdicts) => object["invocations"] = invocations_json(case, verdicts).into(),
+        Err(error) => object["error"] = error.to_string().into(),
+    }
+    object
+}
+
+fn invocations_json(case: &Case, verdicts: &[Verdict]) -> Vec<Value> {
+    (case.invocations.iter().zip(verdicts).enumerate())
         .map(|(number, (invocation, verdict))| {
             let mut object = json!({
                 "invocation": number + 1,
@@ -356,22 +452,16 @@ fn to_json(path: &str, ran: &Ran) -> Value {
                 }
                 Verdict::Failed(wrong) => {
                     object["outcome"] = json!("failed");
-                    let wrong = wrong.iter().map(|entry| wrong_json(entry, invocation));
+                    let wrong = wrong.iter().map(wrong_json);
                     object["wrong"] = wrong.collect();
                 }
             }
             object
         })
-        .collect();
-    json!({
-        "file": file,
-        "name": case.name,
-        "outcome": outcome(ran),
-        "invocations": invocations,
-    })
+        .collect()
 }
 
-fn wrong_json(wrong: &Wrong, invocation: &Invocation) -> Value {
+fn wrong_json(wrong: &Wrong) -> Value {
     let (mut object, origin) = match wrong {
         Wrong::Number {
             quantity,
@@ -379,6 +469,7 @@ fn wrong_json(wrong: &Wrong, invocation: &Invocation) -> Value {
             expected,
             actual,
             difference,
+            tolerance,
             origin,
         } => (
             json!({
@@ -387,7 +478,7 @@ fn wrong_json(wrong: &Wrong, invocation: &Invocation) -> Value {
                 "expected": json_number(*expected),
                 "actual": json_number(*actual),
                 "difference": if difference.is_finite() { json!(difference) } else { Value::Null },
-                "tolerance": invocation.tolerance,
+                "tolerance": tolerance,
             }),
             origin,
         ),

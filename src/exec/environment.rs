@@ -55,3 +55,15 @@ pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]>
     }
     constants
 }
+
+/// Whether bound constants of a kernel differ from what it defines itself.
+pub fn overrides_definitions(kernel: &Kernel, bound: &[[f32; 4]]) -> bool {
+    let own = bind_constants(kernel, &[]);
+    (kernel.definitions.iter()).any(|(register, _)| {
+        let of = |constants: &[[f32; 4]]| {
+            let value = constants.get(*register as usize).copied();
+            value.unwrap_or_default().map(f32::to_bits)
+        };
+        of(&own) != of(bound)
+    })
+}

@@ -10,6 +10,6 @@ mod machine;
 mod tests;
 mod trace;
 
-pub use environment::{Environment, STAGES, Stage, bind_constants};
+pub use environment::{Environment, STAGES, Stage, bind_constants, overrides_definitions};
 pub use machine::{Lanes, Machine, Observer};
 pub use trace::{Change, Trace};

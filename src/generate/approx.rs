@@ -32,20 +32,20 @@ impl Default for Precision {
 
 /// A number and how far another executor may be from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Approx {
-    pub(super) value: f64,
-    pub(super) error: f64,
+pub(crate) struct Approx {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
 }
 
 impl Approx {
     pub(super) const ZERO: Self = Self::exact(0.0);
-    pub(super) const ONE: Self = Self::exact(1.0);
+    pub(crate) const ONE: Self = Self::exact(1.0);
 
-    pub(super) const fn new(value: f64, error: f64) -> Self {
+    pub(crate) const fn new(value: f64, error: f64) -> Self {
         Self { value, error }
     }
 
-    pub(super) const fn exact(value: f64) -> Self {
+    pub(crate) const fn exact(value: f64) -> Self {
         Self::new(value, 0.0)
     }
 
@@ -65,7 +65,7 @@ impl Approx {
     /// Whether all executors agree on which side of a threshold the number lies.
     ///
     /// Twice the bound, because the bound of what is at the threshold itself was worked out from rounded numbers.
-    pub(super) fn apart_from(self, threshold: f64) -> bool {
+    pub(crate) fn apart_from(self, threshold: f64) -> bool {
         self.error == 0.0 || (self.value - threshold).abs() > 2.0 * self.error
     }
 
@@ -79,11 +79,11 @@ impl Approx {
     }
 
     /// Times a power of two, which is exact.
-    pub(super) fn scale(self, by: f64) -> Self {
+    pub(crate) fn scale(self, by: f64) -> Self {
         Self::new(self.value * by, self.error * by.abs())
     }
 
-    pub(super) fn plus(self, other: Self, rounding: f64) -> Self {
+    pub(crate) fn plus(self, other: Self, rounding: f64) -> Self {
         let rounded = rounding * (self.value.abs() + other.value.abs());
         Self::exact(self.value + other.value).result(
             &[self, other],
@@ -96,7 +96,7 @@ impl Approx {
         self.plus(other.negate(), rounding)
     }
 
-    pub(super) fn times(self, other: Self, rounding: f64) -> Self {
+    pub(crate) fn times(self, other: Self, rounding: f64) -> Self {
         let product = self.value * other.value;
         // A factor that is zero everywhere makes a zero everywhere.
         if self == Self::ZERO || other == Self::ZERO {
@@ -109,7 +109,7 @@ impl Approx {
     }
 
     /// `None` where the divisor may be zero or is known only roughly.
-    pub(super) fn over(self, divisor: Self, rounding: f64) -> Option<Self> {
+    pub(crate) fn over(self, divisor: Self, rounding: f64) -> Option<Self> {
         let size = divisor.value.abs() - divisor.error;
         if divisor.value.abs() <= 2.0 * divisor.error || size < f64::from(f32::MIN_POSITIVE) {
             return None;
@@ -143,7 +143,7 @@ impl Approx {
     }
 
     /// Clamped to 0…1. Beyond the ends by more than the bound, all executors have the end.
-    pub(super) fn saturate(self) -> Self {
+    pub(crate) fn saturate(self) -> Self {
         let value = self.value.clamp(0.0, 1.0);
         let sure = self.value - self.error > 1.0 || self.value + self.error < 0.0;
         Self::new(value, if sure { 0.0 } else { self.error })

@@ -6,13 +6,47 @@ use super::{INVOCATIONS, Stage};
 use crate::exec::STAGES;
 use crate::isa::{ResultModifier, SourceModifier, WriteMask};
 use crate::kernel::Op;
+use crate::semantics::BumpState;
 use crate::texture::TextureKind;
 
 /// Where bounds are worked out.
-pub(super) struct Context<'a> {
+pub(crate) struct Context<'a> {
     pub(super) precision: &'a Precision,
+    pub(super) sampling: &'a dyn Sampling,
+}
+
+/// What bounds must know of texture stages.
+pub(crate) trait Sampling {
+    /// The bump mapping states of a stage.
+    fn bump(&self, stage: usize) -> &BumpState;
+
+    /// How far a sample at such coordinates may be off in any channel. `None`: executors that are right may part here.
+    fn error(&self, stage: usize, at: [Approx; 3], precision: &Precision) -> Option<f64>;
+}
+
+/// The textures of generated shaders.
+pub(super) struct Gentle<'a> {
     pub(super) stages: &'a [Stage; STAGES],
     pub(super) textures: &'a Textures,
+}
+
+impl Sampling for Gentle<'_> {
+    fn bump(&self, stage: usize) -> &BumpState {
+        &self.stages[stage % STAGES].bump
+    }
+
+    fn error(&self, stage: usize, at: [Approx; 3], precision: &Precision) -> Option<f64> {
+        let r = precision.rounding;
+        let stage = &self.stages[stage % STAGES];
+        let slope = self.textures.slope(stage.kind, stage.signed);
+        let moved = |x: &Approx| x.error + r * x.value.abs();
+        let moved = match stage.kind {
+            TextureKind::Texture2D => at[..2].iter().map(moved).sum::<f64>(),
+            TextureKind::Volume => at.iter().map(moved).sum(),
+            TextureKind::Cube => cube(at, r)?,
+        };
+        Some(slope * moved + precision.sample)
+    }
 }
 
 /// A register of one invocation.
@@ -105,14 +139,14 @@ impl Context<'_> {
             Op::DivideZ => self.divided(a, a[2]),
             Op::DivideW => self.divided(a, a[3]),
             Op::Bump(stage) => {
-                let [m00, m01, m10, m11] = self.stage(stage).bump.matrix.map(number);
+                let [m00, m01, m10, m11] = self.sampling.bump(stage.into()).matrix.map(number);
                 let moved = |base: Approx, u: Approx, v: Approx| {
                     base.plus(u.times(b[0], r).plus(v.times(b[1], r), r), r)
                 };
                 Some([moved(a[0], m00, m10), moved(a[1], m01, m11), a[2], a[3]])
             }
             Op::Luminance(stage) => {
-                let bump = &self.stage(stage).bump;
+                let bump = self.sampling.bump(stage.into());
                 let scaled = b[2].times(number(bump.luminance_scale), r);
                 let luminance = scaled.plus(number(bump.luminance_offset), r);
                 each(&|k| Some(a[k].times(luminance, r)))
@@ -123,7 +157,11 @@ impl Context<'_> {
                 let mirrored = |k: usize| scale.times(a[k], r).minus(b[k], r);
                 Some([mirrored(0), mirrored(1), mirrored(2), Approx::ZERO])
             }
-            Op::Sample(stage) => self.sample(self.stage(stage), [a[0], a[1], a[2]]),
+            Op::Sample(stage) => {
+                let at = [a[0], a[1], a[2]];
+                let error = self.sampling.error(stage.into(), at, self.precision)?;
+                all(Approx::new(0.0, error))
+            }
             Op::Kill => {
                 let sure = a[..3].iter().all(|x| x.apart_from(0.0));
                 sure.then_some([Approx::ZERO; 4])
@@ -136,10 +174,6 @@ impl Context<'_> {
     pub(super) fn finish(result: ResultModifier, x: Approx) -> Approx {
         let x = x.scale(f64::from(result.shift).exp2());
         if result.saturate { x.saturate() } else { x }
-    }
-
-    fn stage(&self, stage: u8) -> &Stage {
-        &self.stages[usize::from(stage) % STAGES]
     }
 
     fn fraction(&self, x: Approx) -> Option<Approx> {
@@ -231,18 +265,6 @@ impl Context<'_> {
             }
         }
         Some([Approx::ONE, diffuse, specular, Approx::ONE])
-    }
-
-    fn sample(&self, stage: &Stage, at: [Approx; 3]) -> Option<Quad> {
-        let r = self.precision.rounding;
-        let slope = self.textures.slope(stage.kind, stage.signed);
-        let moved = |x: &Approx| x.error + r * x.value.abs();
-        let moved = match stage.kind {
-            TextureKind::Texture2D => at[..2].iter().map(moved).sum::<f64>(),
-            TextureKind::Volume => at.iter().map(moved).sum(),
-            TextureKind::Cube => cube(at, r)?,
-        };
-        Some([Approx::new(0.0, slope * moved + self.precision.sample); 4])
     }
 }
 

@@ -1,5 +1,6 @@
 //! A shader while it is written: instructions are offered one by one or in groups, and taken if they fit.
 
+use super::bound::Gentle;
 use super::operand::{Ports, Role, Want, source};
 use super::probe::{self, Probe};
 use super::registers::Registers;
@@ -173,14 +174,11 @@ impl<'a> Maker<'a> {
         let kernel = kernel::lower(&self.program, &self.kernel_options()).ok()?;
         let constants = self.bound_constants(&kernel);
         let environment = probe::environment(constants, &self.stages, self.textures);
-        before.after(
-            kernel,
-            first,
-            &environment,
-            &self.stages,
-            self.textures,
-            self.options,
-        )
+        let gentle = Gentle {
+            stages: &self.stages,
+            textures: self.textures,
+        };
+        before.after(kernel, first, &environment, &gentle, self.options)
     }
 
     /// An arithmetic instruction of this opcode, with a destination of its own choice unless one is given.

@@ -35,9 +35,12 @@ mod values;
 mod tests;
 
 pub use approx::Precision;
+// Bounds of shaders that were not generated.
 pub use random::Random;
 pub use shrink::shrink;
 pub use textures::Textures;
+#[cfg(feature = "gpu")]
+pub(crate) use {approx::Approx, bound::Sampling, probe::Probe};
 
 use crate::diagnostic::SourceMap;
 use crate::exec::{Environment, Machine, STAGES, bind_constants};
@@ -68,7 +71,7 @@ pub struct Options {
     pub comparable: bool,
     /// How exact the executors are.
     pub precision: Precision,
-    /// Comparable shaders: the largest number that is computed.
+    /// Comparable shaders: the largest number that is computed; where it is infinite, infinities and NaN are, too.
     pub largest_value: f64,
     /// Comparable shaders: the largest bound of a number within ±1; of larger ones relative to their size.
     pub largest_error: f64,
@@ -238,7 +241,8 @@ impl Generated {
         let probe = if options.comparable {
             let start = probe::Probe::new(&self.inputs);
             let stages = &self.stages;
-            Some(start.after(kernel, 0, &environment, stages, textures, options)?)
+            let gentle = bound::Gentle { stages, textures };
+            Some(start.after(kernel, 0, &environment, &gentle, options)?)
         } else {
             None
         };

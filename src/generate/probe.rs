@@ -1,7 +1,7 @@
 //! Runs a shader while it is written, with a bound on every register.
 
 use super::approx::Approx;
-use super::bound::{Bounds, Context, modified};
+use super::bound::{Bounds, Context, Sampling, modified};
 use super::{INVOCATIONS, Options, Stage, Textures};
 use crate::exec::{Environment, Machine, STAGES};
 use crate::isa::{ResultModifier, SourceModifier, WriteMask};
@@ -9,8 +9,8 @@ use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 
 /// All registers of all invocations after some instructions, with how far executors may be apart on them.
 #[derive(Clone)]
-pub(super) struct Probe {
-    pub(super) machine: Machine<INVOCATIONS>,
+pub(crate) struct Probe {
+    pub(crate) machine: Machine<INVOCATIONS>,
     /// The error of each component of each slot, slot by slot, invocation by invocation.
     errors: Vec<[[f64; 4]; INVOCATIONS]>,
 }
@@ -20,7 +20,7 @@ const SCRATCH: Slot = Slot::COORDINATES;
 
 impl Probe {
     /// The machine before the first instruction. Inputs are exact.
-    pub(super) fn new(inputs: &[(Slot, [[f32; 4]; INVOCATIONS])]) -> Self {
+    pub(crate) fn new(inputs: &[(Slot, [[f32; 4]; INVOCATIONS])]) -> Self {
         let mut machine = Machine::new();
         for (slot, values) in inputs {
             for (lane, value) in values.iter().enumerate() {
@@ -33,25 +33,32 @@ impl Probe {
         }
     }
 
+    /// The same where a slot is known only roughly, in all invocations alike.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn with_errors(mut self, slot: Slot, errors: [f64; 4]) -> Self {
+        if let Some(known) = self.errors.get_mut(slot.index()) {
+            *known = [errors; INVOCATIONS];
+        }
+        self
+    }
+
     /// The error bounds of a slot.
-    pub(super) fn errors(&self, slot: Slot) -> [[f64; 4]; INVOCATIONS] {
+    pub(crate) fn errors(&self, slot: Slot) -> [[f64; 4]; INVOCATIONS] {
         self.errors.get(slot.index()).copied().unwrap_or_default()
     }
 
     /// The state after the instructions from number `first` on; `None` if executors that are right may part there.
-    pub(super) fn after(
+    pub(crate) fn after(
         &self,
         mut kernel: Kernel,
         first: usize,
         environment: &Environment<'_>,
-        stages: &[Stage; STAGES],
-        textures: &Textures,
+        sampling: &dyn Sampling,
         options: &Options,
     ) -> Option<Probe> {
         let context = &Context {
             precision: &options.precision,
-            stages,
-            textures,
+            sampling,
         };
         let mut next = self.clone();
         let mut steps = std::mem::take(&mut kernel.steps);
@@ -149,6 +156,12 @@ impl Probe {
             for c in step.mask.components() {
                 let value = f64::from(values[c]);
                 let error = Context::finish(step.result, bound[c]).error;
+                let finite = value.is_finite() && error.is_finite();
+                if !finite && options.largest_value == f64::INFINITY {
+                    // No difference is small here: executors have the same or part.
+                    errors[lane][c] = 0.0;
+                    continue;
+                }
                 let near = error <= options.largest_error * value.abs().max(1.0);
                 // Written so that NaN is refused.
                 if !(value.abs() <= options.largest_value && near) {

@@ -83,6 +83,22 @@ impl UniformArena {
         start as u64..(start + block.len()) as u64
     }
 
+    /// The entry of a bind group for a block in the buffer.
+    pub(super) fn entry<'b>(
+        buffer: &'b wgpu::Buffer,
+        binding: u32,
+        place: &Range<u64>,
+    ) -> wgpu::BindGroupEntry<'b> {
+        wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer,
+                offset: place.start,
+                size: std::num::NonZeroU64::new(place.end - place.start),
+            }),
+        }
+    }
+
     /// The buffer with all blocks.
     pub(super) fn upload(&self, device: &Device) -> wgpu::Buffer {
         filled(device, &self.bytes, wgpu::BufferUsages::UNIFORM)

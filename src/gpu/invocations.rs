@@ -1,222 +1,361 @@
-//! A pixel shader alone, with inputs that are given, and its result as 32-bit floats.
+//! Shaders run for inputs that are given, one invocation a pixel, and what they leave behind.
 
-use super::buffers::filled;
-use super::picture::{Picture, depth_format};
-use super::pipeline::Pipelines;
+use super::buffers::{UniformArena, filled};
+use super::harness::{Look, Rows, locations, with_entries};
+use super::picture::{COLOR_FORMAT, Picture, depth_format};
+use super::pipeline::{Pipeline, Pipelines};
 use super::state::fixed_state;
-use super::{Device, GpuError, Uniforms, VertexLayout};
-use crate::raster::{CullMode, RenderState, Topology};
-use crate::wgsl::{Reflection, Resource, StageReflection, Translation};
+use super::texture::{GpuTexture, Samplers};
+use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
+use crate::exec::{STAGES, Stage};
+use crate::isa::ShaderKind;
+use crate::raster::{Compare, CullMode, FillMode, RenderState, Topology};
+use crate::scene::clear_color;
+use crate::wgsl::{Resource, Translation};
 
-/// Inputs of one invocation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PixelInput {
-    /// `t0` to `t7`.
-    pub texcoords: [[f32; 4]; 8],
-    /// `v0` and `v1`. They are taken into 0 to 1.
-    pub colors: [[f32; 4]; 2],
+/// What is run: the same for all invocations.
+#[derive(Clone, Debug)]
+pub struct Shading<'a> {
+    /// The shaders: a vertex shader, a pixel shader, or both linked, translated with
+    /// [`Options::observed`](crate::wgsl::Options::observed).
+    pub translation: &'a Translation,
+    /// What the texture stages hold; the translation must have been made for them.
+    pub stages: [Stage<'a>; STAGES],
+    /// The render states.
+    pub state: &'a RenderState,
 }
 
-/// The width of the picture that the results are drawn into.
-const WIDTH: u32 = 256;
-/// The most invocations of one call.
-const MOST: usize = 1 << 20;
-/// What results are drawn over, one after the other: a pixel that shows both was not written.
-const CLEARS: [f64; 2] = [0.25, 0.75];
+/// What goes into one invocation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InvocationInputs {
+    /// `v0` to `v15` of a vertex shader.
+    pub vertex: [[f32; 4]; 16],
+    /// `t0` to `t7` where there is no vertex shader.
+    pub texcoords: [[f32; 4]; 8],
+    /// `v0` and `v1` where there is no vertex shader. The shader takes them into 0 to 1.
+    pub colors: [[f32; 4]; 2],
+    /// The fog factor where there is no vertex shader, 0 to 1.
+    pub fog: f32,
+    /// The constants of the vertex shader, as [`crate::exec::bind_constants`] gives them.
+    pub vertex_constants: Vec<[f32; 4]>,
+    /// Those of the pixel shader.
+    pub pixel_constants: Vec<[f32; 4]>,
+}
 
-/// Runs a pixel shader once for each input. The result is `r0`, not clamped; none where the pixel was discarded.
+/// What one invocation left behind.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// What the pixel shader returns, not clamped, also for a pixel that is discarded.
+    pub color: [f32; 4],
+    /// The depth in the depth buffer, 32-bit floats from 0 to 1; none if the pixel was discarded.
+    pub depth: Option<f32>,
+    /// The registers of the vertex shader that were asked for.
+    pub vertex: Vec<[f32; 4]>,
+    /// Those of the pixel shader.
+    pub pixel: Vec<[f32; 4]>,
+}
+
+/// The width of the picture that results are drawn into.
+const WIDTH: u32 = 256;
+/// The most pixels of one picture.
+const MOST: usize = 1 << 20;
+
+/// Runs shaders for single invocations. Samplers are kept from one call to the next.
 ///
-/// The shader must have been translated alone, and must not sample: derivatives are 0, and no texture is bound. Every
-/// pixel is a primitive of its own with w = 1, so that its inputs reach the shader as they are.
-///
-/// # Errors
-/// [`GpuError::Limit`] on a device that cannot draw into 32-bit floats, and for more than 2²⁰ inputs;
-/// [`GpuError::Unsupported`] for a translation with a vertex shader or with textures; and what the device reports.
-pub fn shade_pixels(
-    device: &Device,
-    translation: &Translation,
-    uniforms: &Uniforms<'_>,
-    inputs: &[PixelInput],
-) -> Result<Vec<Option<[f32; 4]>>, GpuError> {
-    if !device.adapter().float_targets || inputs.len() > MOST {
-        let what = format!("{} results as 32-bit floats", inputs.len());
-        let limit = match device.adapter().float_targets {
-            true => format!("at most {MOST}"),
-            false => "it cannot draw into 32-bit floats".into(),
-        };
-        return Err(GpuError::Limit { what, limit });
+/// Every invocation is a point by itself, with w = 1: nothing is clipped and nothing interpolated, derivatives are 0, so
+/// that textures are magnified.
+#[derive(Debug)]
+pub struct Invocations<'d> {
+    device: &'d Device,
+    samplers: Samplers,
+}
+
+impl<'d> Invocations<'d> {
+    /// Invocations on a device.
+    pub fn new(device: &'d Device) -> Self {
+        Self {
+            device,
+            samplers: Samplers::default(),
+        }
     }
-    let reflection = &translation.reflection;
-    let is_uniform = |resource: &Resource| matches!(resource, Resource::Uniform { .. });
-    let bound = &reflection.bindings;
-    if reflection.vertex.is_some() || !bound.iter().all(|b| is_uniform(&b.resource)) {
-        return Err(GpuError::Unsupported {
-            draw: "invocations".into(),
-            state: "a vertex shader or a texture".into(),
-        });
+
+    /// Runs the shaders and looks at registers, as 32-bit floats. Render states have no effect, except for what is
+    /// baked into the translation.
+    ///
+    /// # Errors
+    /// [`GpuError::Limit`] on a device that cannot draw into 32-bit floats; [`GpuError::Unsupported`] for a translation
+    /// that was not made to be looked at; and what the device reports.
+    pub fn registers(
+        &mut self,
+        shading: &Shading<'_>,
+        inputs: &[InvocationInputs],
+    ) -> Result<Vec<Seen>, GpuError> {
+        if !self.device.adapter().float_targets {
+            return Err(GpuError::Limit {
+                what: "registers as 32-bit floats".into(),
+                limit: "it cannot draw into such a target".into(),
+            });
+        }
+        let rows = Rows::of(shading.translation, Look::Registers);
+        let mut seen = Vec::with_capacity(inputs.len());
+        for some in inputs.chunks((MOST / rows.count).max(1)) {
+            let (colors, depths) = self.draw(shading, some, Look::Registers, [0.0; 4])?;
+            let texels = colors.chunks_exact(16).map(|texel| {
+                let channel = |i: usize| number(texel.get(4 * i..4 * i + 4).unwrap_or_default());
+                [channel(0), channel(1), channel(2), channel(3)]
+            });
+            let texels: Vec<[f32; 4]> = texels.collect();
+            let depths: Vec<f32> = depths.chunks_exact(4).map(number).collect();
+            let invocations = texels
+                .chunks_exact(rows.count)
+                .zip(depths.chunks_exact(rows.count));
+            seen.extend(invocations.take(some.len()).map(|(texels, depths)| {
+                let of =
+                    |range: std::ops::Range<usize>| texels.get(range).unwrap_or_default().to_vec();
+                Seen {
+                    color: texels.get(1).copied().unwrap_or_default(),
+                    depth: (texels[0] != [0.0; 4]).then(|| depths[0]),
+                    vertex: of(rows.vertex..rows.pixel),
+                    pixel: of(rows.pixel..rows.count),
+                }
+            }));
+        }
+        Ok(seen)
     }
-    if inputs.is_empty() {
-        return Ok(Vec::new());
+
+    /// Runs the shaders and gives what then stands in a target of 8 bits a channel that was cleared to this colour,
+    /// with depth 1 and stencil 0.
+    ///
+    /// # Errors
+    /// As [`Self::registers`], but any device has such targets.
+    pub fn frames(
+        &mut self,
+        shading: &Shading<'_>,
+        inputs: &[InvocationInputs],
+        clear: [f32; 4],
+    ) -> Result<Vec<[u8; 4]>, GpuError> {
+        let mut frames = Vec::with_capacity(inputs.len());
+        // As eight bits hold it, so that rounding is not left to the device.
+        let clear = clear_color(clear).map(|byte| f64::from(byte) / 255.0);
+        for some in inputs.chunks(MOST) {
+            let (colors, _) = self.draw(shading, some, Look::Color, clear)?;
+            let texels = colors.chunks_exact(4).take(some.len());
+            frames.extend(texels.map(|texel| [texel[0], texel[1], texel[2], texel[3]]));
+        }
+        Ok(frames)
     }
-    let count = inputs.len() as u32;
-    let size = [WIDTH, count.div_ceil(WIDTH)];
-    let linked = with_vertex_stage(translation, size);
-    let depth = depth_format(device, false);
-    let mut state = RenderState {
-        cull: CullMode::None,
-        ..RenderState::default()
-    };
-    state.depth.enable = false;
-    let fixed = fixed_state(&state, Topology::PointList, depth, false).map_err(|state| {
-        GpuError::Unsupported {
+
+    /// Colours and depths of the pixels of all invocations.
+    fn draw(
+        &mut self,
+        shading: &Shading<'_>,
+        inputs: &[InvocationInputs],
+        look: Look,
+        clear: [f64; 4],
+    ) -> Result<(Vec<u8>, Vec<u8>), GpuError> {
+        let translation = shading.translation;
+        let unsupported = |state: String| GpuError::Unsupported {
             draw: "invocations".into(),
             state,
+        };
+        if translation.reflection.baked.observed.is_none() {
+            return Err(unsupported(
+                "a translation with entry points of its own".into(),
+            ));
         }
-    })?;
-    let format = wgpu::TextureFormat::Rgba32Float;
-    let layout = VertexLayout::instances(&locations(reflection));
-    let mut pipelines = Pipelines::default();
-    let pipeline = pipelines.get(device, &linked, layout, fixed, format)?;
-    let buffers: Vec<_> = (bound.iter())
-        .map(|binding| {
-            let block = uniforms.block(&binding.resource);
-            (
-                binding.binding,
-                filled(device, &block, wgpu::BufferUsages::UNIFORM),
-            )
-        })
-        .collect();
-    let entries: Vec<_> = (buffers.iter())
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding: *binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    let group = |number: usize, entries: &[wgpu::BindGroupEntry<'_>]| {
-        device.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.groups[number],
-            entries,
-        })
-    };
-    let groups = [group(0, &entries), group(1, &[])];
-    let vertices = filled(
-        device,
-        &instances(reflection, inputs),
-        wgpu::BufferUsages::VERTEX,
-    );
-    let picture = Picture::new(device, size, format, depth);
-    let mut pictures = Vec::with_capacity(CLEARS.len());
-    for clear in CLEARS {
+        if inputs.is_empty() {
+            return Ok((Vec::new(), Vec::new()));
+        }
+        let device = self.device;
+        let rows = Rows::of(translation, look).count as u32;
+        let size = [WIDTH, (inputs.len() as u32 * rows).div_ceil(WIDTH)];
+        device.check_size("a picture", size)?;
+        let complete = with_entries(translation, look, size);
+        let state = state(shading.state, look);
+        let depth = depth_format(device, state.stencil.enable);
+        let fixed =
+            fixed_state(&state, Topology::TriangleList, depth, false).map_err(unsupported)?;
+        let format = match look {
+            Look::Color => COLOR_FORMAT,
+            Look::Registers => wgpu::TextureFormat::Rgba32Float,
+        };
+        let locations = locations(&translation.reflection);
+        let mut pipelines = Pipelines::default();
+        let layout = VertexLayout::instances(&locations);
+        let pipeline = pipelines.get(device, &complete, layout, fixed, format)?;
+        let textures = self.textures(shading, pipeline)?;
+        let draws = uniforms(device, shading, pipeline, inputs);
+        let vertices = filled(
+            device,
+            &attributes(translation, &locations, inputs),
+            wgpu::BufferUsages::VERTEX,
+        );
+        let picture = Picture::new(device, size, format, depth, look == Look::Registers);
         let mut encoder = device.device.create_command_encoder(&Default::default());
-        let mut commands = picture.begin(&mut encoder, [clear; 4]);
+        let mut commands = picture.begin(&mut encoder, clear);
         commands.set_pipeline(&pipeline.pipeline);
-        for (number, group) in (0..).zip(&groups) {
-            commands.set_bind_group(number, group, &[]);
+        commands.set_bind_group(1, &textures, &[]);
+        if !locations.is_empty() {
+            commands.set_vertex_buffer(0, vertices.slice(..));
         }
-        commands.set_vertex_buffer(0, vertices.slice(..));
-        commands.draw(0..4, 0..count);
+        commands.set_stencil_reference(state.stencil.reference.into());
+        for (group, instances) in draws {
+            commands.set_bind_group(0, &group, &[]);
+            commands.draw(0..3 * rows, instances);
+        }
         drop(commands);
-        pictures.push(floats(&picture.read(device, encoder)?));
+        picture.read(device, encoder)
     }
-    let results = pictures[0].iter().zip(&pictures[1]);
-    let written = results.map(|(first, second)| {
-        let bare = [(first, CLEARS[0]), (second, CLEARS[1])];
-        let unwritten = bare
+
+    /// The textures and samplers.
+    fn textures(
+        &mut self,
+        shading: &Shading<'_>,
+        pipeline: &Pipeline,
+    ) -> Result<wgpu::BindGroup, GpuError> {
+        let mut uploaded: [Option<GpuTexture>; STAGES] = [const { None }; STAGES];
+        let mut bound = Vec::new();
+        for binding in &shading.translation.reflection.bindings {
+            let number = match &binding.resource {
+                Resource::Uniform { .. } => continue,
+                Resource::Texture { stage, .. } | Resource::Sampler { stage, .. } => {
+                    usize::from(*stage) % STAGES
+                }
+            };
+            let stage = &shading.stages[number];
+            let Some(texture) = stage.texture else {
+                continue;
+            };
+            let texture = match &mut uploaded[number] {
+                Some(known) => known,
+                place => place.insert(GpuTexture::upload(self.device, texture)?),
+            };
+            let resource =
+                (self.samplers).bound(self.device, &binding.resource, texture, &stage.sampler);
+            bound.extend(resource.map(|resource| (binding.binding, resource)));
+        }
+        let entries: Vec<_> = bound
             .iter()
-            .all(|(texel, clear)| **texel == [*clear as f32; 4]);
-        (!unwritten).then_some(*first)
+            .map(|(binding, bound)| bound.entry(*binding))
+            .collect();
+        Ok(group(self.device, &pipeline.groups[1], &entries))
+    }
+}
+
+fn number(bytes: &[u8]) -> f32 {
+    <[u8; 4]>::try_from(bytes).map_or(0.0, f32::from_le_bytes)
+}
+
+fn group(
+    device: &Device,
+    layout: &wgpu::BindGroupLayout,
+    entries: &[wgpu::BindGroupEntry<'_>],
+) -> wgpu::BindGroup {
+    device.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout,
+        entries,
+    })
+}
+
+/// The render states of a point by itself, which has no sides; of registers only the depth is written beside them.
+fn state(state: &RenderState, look: Look) -> RenderState {
+    let mut lone = match look {
+        Look::Color => state.clone(),
+        Look::Registers => RenderState::default(),
+    };
+    if look == Look::Registers {
+        lone.depth.func = Compare::Always;
+    }
+    lone.cull = CullMode::None;
+    lone.fill = FillMode::Solid;
+    lone.depth.bias = 0;
+    lone
+}
+
+/// The bind groups of the uniform blocks, each with the instances that it is for: neighbours with the same constants
+/// share one.
+fn uniforms(
+    device: &Device,
+    shading: &Shading<'_>,
+    pipeline: &Pipeline,
+    inputs: &[InvocationInputs],
+) -> Vec<(wgpu::BindGroup, std::ops::Range<u32>)> {
+    let same = |a: &InvocationInputs, b: &InvocationInputs| {
+        // By bits, so that NaN is the same as itself.
+        let bits = |constants: &[[f32; 4]]| {
+            constants
+                .as_flattened()
+                .iter()
+                .map(|c| c.to_bits())
+                .collect::<Vec<_>>()
+        };
+        bits(&a.vertex_constants) == bits(&b.vertex_constants)
+            && bits(&a.pixel_constants) == bits(&b.pixel_constants)
+    };
+    let stages = (shading.stages.each_ref())
+        .map(|stage| StageUniforms::new(stage.texture, &stage.sampler, stage.bump));
+    let mut arena = UniformArena::new(device);
+    let mut draws = Vec::new();
+    let mut first = 0;
+    for some in inputs.chunk_by(same) {
+        let mut places = Vec::new();
+        for binding in &shading.translation.reflection.bindings {
+            let Resource::Uniform { stage, .. } = &binding.resource else {
+                continue;
+            };
+            let constants = some.first().map(|inputs| match stage {
+                ShaderKind::Vertex => inputs.vertex_constants.as_slice(),
+                ShaderKind::Pixel => inputs.pixel_constants.as_slice(),
+            });
+            let uniforms = Uniforms {
+                constants: constants.unwrap_or_default(),
+                state: shading.state,
+                viewport: [1.0; 2],
+                stages,
+            };
+            places.push((
+                binding.binding,
+                arena.push(&uniforms.block(&binding.resource)),
+            ));
+        }
+        let end = first + some.len() as u32;
+        draws.push((places, first..end));
+        first = end;
+    }
+    let buffer = arena.upload(device);
+    let grouped = draws.into_iter().map(|(places, instances)| {
+        let entries: Vec<_> = (places.iter())
+            .map(|(binding, place)| UniformArena::entry(&buffer, *binding, place))
+            .collect();
+        (group(device, &pipeline.groups[0], &entries), instances)
     });
-    Ok(written.take(inputs.len()).collect())
-}
-
-fn floats(bytes: &[u8]) -> Vec<[f32; 4]> {
-    let number = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
-    let texel = |b: &[u8]| std::array::from_fn(|i| number(&b[4 * i..4 * i + 4]));
-    bytes.chunks_exact(16).map(texel).collect()
-}
-
-/// The locations that instances feed: those of the varyings, and one more so that there is always something.
-fn locations(reflection: &Reflection) -> Vec<u32> {
-    let mut locations: Vec<u32> = (reflection.varyings.iter())
-        .map(|varying| varying.location)
-        .collect();
-    locations.push(15);
-    locations
+    grouped.collect()
 }
 
 /// The content of the vertex buffer.
-fn instances(reflection: &Reflection, inputs: &[PixelInput]) -> Vec<u8> {
-    let locations = locations(reflection);
-    let value = |input: &PixelInput, location: u32| match location {
-        0..=7 => input.texcoords[location as usize],
-        8 | 9 => input.colors[location as usize - 8],
-        _ => [1.0; 4],
+fn attributes(
+    translation: &Translation,
+    locations: &[u32],
+    inputs: &[InvocationInputs],
+) -> Vec<u8> {
+    let has_vertex = translation.reflection.vertex.is_some();
+    let value = |input: &InvocationInputs, location: usize| -> [f32; 4] {
+        if has_vertex {
+            return input.vertex.get(location).copied().unwrap_or_default();
+        }
+        let colors = location.checked_sub(8).and_then(|i| input.colors.get(i));
+        let passed = input.texcoords.get(location).or(colors);
+        passed.copied().unwrap_or([input.fog; 4])
     };
     inputs
         .iter()
         .flat_map(|input| {
             locations
                 .iter()
-                .map(move |location| value(input, *location))
+                .map(move |location| value(input, *location as usize))
         })
         .flatten()
         .flat_map(f32::to_le_bytes)
         .collect()
-}
-
-/// The translation with a vertex stage that puts each instance into a pixel of its own.
-fn with_vertex_stage(translation: &Translation, [width, height]: [u32; 2]) -> Translation {
-    const ENTRY: &str = "invocation_main";
-    let varyings = &translation.reflection.varyings;
-    let (mut taken, mut passed, mut copies) = (String::new(), String::new(), String::new());
-    for varying in varyings {
-        let (name, location) = (&varying.name, varying.location);
-        let (of, swizzle) = match varying.components {
-            1 => ("f32".to_owned(), ".x"),
-            2 => ("vec2f".to_owned(), ".xy"),
-            3 => ("vec3f".to_owned(), ".xyz"),
-            _ => ("vec4f".to_owned(), ""),
-        };
-        let flat = if varying.flat {
-            " @interpolate(flat)"
-        } else {
-            ""
-        };
-        taken.push_str(&format!("    @location({location}) {name}: vec4f,\n"));
-        passed.push_str(&format!("    @location({location}){flat} {name}: {of},\n"));
-        copies.push_str(&format!("    out.{name} = in.{name}{swizzle};\n"));
-    }
-    let source = format!(
-        "{}
-struct InvocationInput {{
-{taken}    @location(15) unused: vec4f,
-}}
-
-struct InvocationOutput {{
-    @builtin(position) place: vec4f,
-{passed}}}
-
-@vertex
-fn {ENTRY}(@builtin(vertex_index) corner: u32, @builtin(instance_index) i: u32, in: InvocationInput) -> InvocationOutput {{
-    var out: InvocationOutput;
-    let pixel = vec2f(f32(i % {width}u + (corner & 1u)), f32(i / {width}u + (corner >> 1u)));
-    let at = pixel / vec2f({width}.0, {height}.0);
-    out.place = vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, 0.0, 1.0);
-{copies}    return out;
-}}
-",
-        translation.source
-    );
-    let mut linked = translation.clone();
-    linked.source = source;
-    linked.reflection.vertex = linked
-        .reflection
-        .pixel
-        .clone()
-        .map(|pixel| StageReflection {
-            entry: ENTRY.into(),
-            ..pixel
-        });
-    linked
 }

@@ -20,12 +20,13 @@
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
 //! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
-//! `invocations` runs a pixel shader alone, for tests of arithmetic.
+//! `invocations` runs shaders for single invocations, for tests, by way of the entry points of `harness`.
 
 mod buffers;
 mod device;
 mod differences;
 mod error;
+mod harness;
 mod invocations;
 mod picture;
 mod pipeline;
@@ -38,10 +39,11 @@ mod vertex;
 pub use device::{AdapterInfo, Device, adapters};
 pub use differences::{Differences, WorstPixel};
 pub use error::GpuError;
-pub use invocations::{PixelInput, shade_pixels};
+pub use invocations::{InvocationInputs, Invocations, Seen, Shading};
 pub use pipeline::bind_group_layouts;
 pub use renderer::Renderer;
 pub use state::{FixedState, fixed_state};
+pub use texture::stage_options;
 pub use uniform::{StageUniforms, Uniforms};
 pub use vertex::{Stream, VertexLayout, primitive_indices};
 /// The version of `wgpu` that this crate draws with.

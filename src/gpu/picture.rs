@@ -9,10 +9,9 @@ pub(super) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8U
 
 /// What a pass draws into. Neither side is 0.
 pub(super) struct Picture {
-    size: wgpu::Extent3d,
-    format: wgpu::TextureFormat,
     color: wgpu::Texture,
     depth: wgpu::Texture,
+    keeps_depth: bool,
 }
 
 /// A depth format: with as many bits as a float has where the device can join that with stencil, or where there is no need
@@ -28,19 +27,22 @@ pub(super) fn depth_format(device: &Device, stencil: bool) -> wgpu::TextureForma
 }
 
 impl Picture {
-    /// Both buffers of one size. The caller has checked it.
+    /// Both buffers of one size. The caller has checked it. `keeps_depth`: the depth can be read, and is 32-bit floats.
     pub(super) fn new(
         device: &Device,
         [width, height]: [u32; 2],
         format: wgpu::TextureFormat,
         depth: wgpu::TextureFormat,
+        keeps_depth: bool,
     ) -> Self {
         let size = wgpu::Extent3d {
             width,
             height,
             depth_or_array_layers: 1,
         };
-        let texture = |format, usage| {
+        let texture = |format, read: bool| {
+            let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+            usage.set(wgpu::TextureUsages::COPY_SRC, read);
             device.device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
                 size,
@@ -52,12 +54,10 @@ impl Picture {
                 view_formats: &[],
             })
         };
-        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         Self {
-            size,
-            format,
-            color: texture(format, attachment | wgpu::TextureUsages::COPY_SRC),
-            depth: texture(depth, attachment),
+            color: texture(format, true),
+            depth: texture(depth, keeps_depth),
+            keeps_depth,
         }
     }
 
@@ -85,7 +85,10 @@ impl Picture {
                 view: &depth,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Discard,
+                    store: match self.keeps_depth {
+                        true => wgpu::StoreOp::Store,
+                        false => wgpu::StoreOp::Discard,
+                    },
                 }),
                 stencil_ops: (self.depth.format().has_stencil_aspect()).then_some(
                     wgpu::Operations {
@@ -100,7 +103,8 @@ impl Picture {
         })
     }
 
-    /// Submits what was encoded, waits, and gives the colours as bytes, row after row without gaps.
+    /// Submits what was encoded, waits, and gives the colours as bytes, row after row without gaps; behind them the
+    /// depths, if they are kept, else nothing.
     ///
     /// # Errors
     /// [`GpuError::Device`] and [`GpuError::Lost`].
@@ -108,32 +112,59 @@ impl Picture {
         &self,
         device: &Device,
         mut encoder: wgpu::CommandEncoder,
-    ) -> Result<Vec<u8>, GpuError> {
-        let texel = self.format.block_copy_size(None).unwrap_or(4);
-        let row = self.size.width * texel;
+    ) -> Result<(Vec<u8>, Vec<u8>), GpuError> {
+        let color = Copied::of(device, &mut encoder, &self.color);
+        let depth = (self.keeps_depth).then(|| Copied::of(device, &mut encoder, &self.depth));
+        device.queue.submit([encoder.finish()]);
+        device.check()?;
+        let colors = color.bytes(device)?;
+        let depths = depth.map_or(Ok(Vec::new()), |depth| depth.bytes(device))?;
+        Ok((colors, depths))
+    }
+}
+
+/// A texture on its way back.
+struct Copied {
+    buffer: wgpu::Buffer,
+    /// Bytes of a row, and with the gap behind it.
+    row: [usize; 2],
+}
+
+impl Copied {
+    /// Encodes the copy of a texture of one level and one aspect.
+    fn of(device: &Device, encoder: &mut wgpu::CommandEncoder, texture: &wgpu::Texture) -> Self {
+        let size = texture.size();
+        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let row = size.width * texel;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            size: u64::from(padded) * u64::from(self.size.height),
+            size: u64::from(padded) * u64::from(size.height),
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
         encoder.copy_texture_to_buffer(
-            self.color.as_image_copy(),
+            texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,
                 layout: wgpu::TexelCopyBufferLayout {
                     offset: 0,
                     bytes_per_row: Some(padded),
-                    rows_per_image: Some(self.size.height),
+                    rows_per_image: Some(size.height),
                 },
             },
-            self.size,
+            size,
         );
-        device.queue.submit([encoder.finish()]);
-        device.check()?;
+        Self {
+            buffer,
+            row: [row as usize, padded as usize],
+        }
+    }
+
+    /// Waits for the content.
+    fn bytes(&self, device: &Device) -> Result<Vec<u8>, GpuError> {
         let (send, receive) = mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
+        (self.buffer).map_async(wgpu::MapMode::Read, .., move |mapped| {
             // Nobody listens any more if the wait below failed.
             let _ = send.send(mapped);
         });
@@ -143,11 +174,12 @@ impl Picture {
             Ok(Err(error)) => return Err(GpuError::Device(error.to_string())),
             Err(error) => return Err(GpuError::Lost(error.to_string())),
         }
-        let mapped =
-            (buffer.get_mapped_range(..)).map_err(|error| GpuError::Device(error.to_string()))?;
+        let mapped = (self.buffer.get_mapped_range(..))
+            .map_err(|error| GpuError::Device(error.to_string()))?;
+        let [row, padded] = self.row;
         Ok(mapped
-            .chunks_exact(padded as usize)
-            .flat_map(|padded| padded.iter().take(row as usize))
+            .chunks_exact(padded)
+            .flat_map(|padded| padded.iter().take(row))
             .copied()
             .collect())
     }

@@ -9,21 +9,20 @@ use super::buffers::{MeshBuffers, UniformArena};
 use super::picture::{COLOR_FORMAT, Picture, depth_format};
 use super::pipeline::Pipelines;
 use super::state::fixed_state;
-use super::texture::{GpuTexture, SamplerState};
+use super::texture::{Bound, GpuTexture, Samplers, stage_options};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
-use crate::raster::{ShadeMode, Topology};
+use crate::raster::Topology;
 use crate::scene::{
     Output, Pass, PreparedDraw, Progress, Rendered, Scene, Shader, TargetPicture, clear_color,
 };
-use crate::texture::{Format, Texture};
-use crate::wgsl::{self, Fog, Options, Points, Resource, StageOptions, Translation, translate};
+use crate::wgsl::{self, Options, Points, Resource, Translation, translate};
 
 /// Draws scenes with a device. Pipelines and samplers are kept from one picture to the next.
 #[derive(Debug)]
 pub struct Renderer<'d> {
     device: &'d Device,
     pipelines: Pipelines,
-    samplers: HashMap<SamplerState, wgpu::Sampler>,
+    samplers: Samplers,
 }
 
 impl<'d> Renderer<'d> {
@@ -32,7 +31,7 @@ impl<'d> Renderer<'d> {
         Self {
             device,
             pipelines: Pipelines::default(),
-            samplers: HashMap::new(),
+            samplers: Samplers::default(),
         }
     }
 
@@ -118,31 +117,17 @@ fn translation(
     let state = &draw.state;
     let stages = draw.stages.each_ref().map(|stage| {
         let texture = stage.texture.and_then(|number| rendered.texture(number));
-        StageOptions {
-            texture: texture.map(Texture::kind),
-            seamless: stage.sampler.seamless,
-            address: stage.sampler.address,
-            filter: stage.sampler.mag,
-            lod_bias: stage.sampler.lod_bias != 0.0,
-            wide_texels: texture.is_some_and(|texture| texture.format() == Format::Rgba32F),
-        }
+        stage_options(texture, &stage.sampler)
     });
     let options = Options {
         stages,
-        fog: state.fog.enable.then_some(Fog {
-            table: state.fog.table,
-            distance: state.fog.distance,
-        }),
-        alpha_test: state.alpha_test.enable.then_some(state.alpha_test.func),
         overridable_definitions: draw.overrides_definitions(),
-        flat_shading: state.shade == ShadeMode::Flat,
         points: match (draw.topology, state.point.sprite) {
             (Topology::PointList, true) => Points::Sprites,
             (Topology::PointList, false) => Points::Quads,
             _ => Points::None,
         },
-        clip_planes: state.clip_planes.iter().flatten().count() as u8,
-        ..Options::default()
+        ..Options::default().with_state(state)
     };
     let (vertex, pixel) = (stage(scene, draw.vertex), stage(scene, draw.pixel));
     translate(Some(vertex), Some(pixel), &options).map_err(|error| GpuError::Translate {
@@ -216,14 +201,14 @@ impl Frame<'_, '_> {
             ready.extend(self.prepare(draw, translation, places, &uniforms, depth)?);
             self.done += 1;
         }
-        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth);
+        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, false);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         // As eight bits hold it, so that rounding is not left to the device.
         let clear = clear_color(pass.clear).map(|byte| f64::from(byte) / 255.0);
         let mut commands = picture.begin(&mut encoder, clear);
         ready.iter().for_each(|draw| draw.encode(&mut commands));
         drop(commands);
-        let bytes = picture.read(device, encoder)?;
+        let (bytes, _) = picture.read(device, encoder)?;
         RgbaImage::from_raw(width, height, bytes)
             .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
     }
@@ -240,12 +225,7 @@ impl Frame<'_, '_> {
             let texture = stage
                 .texture
                 .and_then(|number| self.rendered.texture(number));
-            let border = stage.sampler.border;
-            StageUniforms {
-                bump: stage.bump,
-                border: texture.map_or(border, |texture| texture.format().with_fill(border)),
-                lod_bias: stage.sampler.lod_bias,
-            }
+            StageUniforms::new(texture, &stage.sampler, stage.bump)
         });
         let mut places = Vec::new();
         for binding in &translation.reflection.bindings {
@@ -304,24 +284,11 @@ impl Frame<'_, '_> {
             (self.renderer.pipelines).get(device, translation, layout, fixed, COLOR_FORMAT)?;
         let uniform_entries: Vec<_> = places
             .iter()
-            .map(|(binding, place)| wgpu::BindGroupEntry {
-                binding: *binding,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: uniforms,
-                    offset: place.start,
-                    size: std::num::NonZeroU64::new(place.end - place.start),
-                }),
-            })
+            .map(|(binding, place)| UniformArena::entry(uniforms, *binding, place))
             .collect();
         let texture_entries: Vec<_> = bound
             .iter()
-            .map(|(binding, bound)| wgpu::BindGroupEntry {
-                binding: *binding,
-                resource: match bound {
-                    Bound::View(view) => wgpu::BindingResource::TextureView(view),
-                    Bound::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
-                },
-            })
+            .map(|(binding, bound)| bound.entry(*binding))
             .collect();
         let group = |layout, entries: &[wgpu::BindGroupEntry<'_>]| {
             device.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -369,30 +336,12 @@ impl Frame<'_, '_> {
                 Entry::Occupied(known) => known.into_mut(),
                 Entry::Vacant(place) => place.insert(GpuTexture::upload(device, source)?),
             };
-            let resource = match &binding.resource {
-                Resource::Sampler { clamps, .. } => {
-                    let state = texture.sampler_state(&stage.sampler, *clamps);
-                    let samplers = &mut self.renderer.samplers;
-                    let sampler = samplers
-                        .entry(state)
-                        .or_insert_with(|| state.create(device));
-                    Bound::Sampler(sampler.clone())
-                }
-                Resource::Texture { dimension, .. } => {
-                    Bound::View(texture.view(*dimension, &stage.sampler))
-                }
-                Resource::Uniform { .. } => continue,
-            };
-            bound.push((binding.binding, resource));
+            let samplers = &mut self.renderer.samplers;
+            let resource = samplers.bound(device, &binding.resource, texture, &stage.sampler);
+            bound.extend(resource.map(|resource| (binding.binding, resource)));
         }
         Ok(bound)
     }
-}
-
-/// What is bound in group 1.
-enum Bound {
-    View(wgpu::TextureView),
-    Sampler(wgpu::Sampler),
 }
 
 impl Ready {

@@ -1,8 +1,9 @@
 //! Textures and samplers on the device.
 
 use super::{Device, GpuError};
-use crate::texture::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind};
-use crate::wgsl::Dimension;
+use crate::texture::{AddressMode, Filter, Format, MipFilter, Sampler, Texture, TextureKind};
+use crate::wgsl::{Dimension, Resource, StageOptions};
+use std::collections::HashMap;
 
 /// A texture on the device.
 #[derive(Debug)]
@@ -100,7 +101,7 @@ impl GpuTexture {
     }
 
     /// A view as a shader wants it. Without mip filter only level 0 is seen.
-    pub(super) fn view(&self, dimension: Dimension, sampler: &Sampler) -> wgpu::TextureView {
+    fn view(&self, dimension: Dimension, sampler: &Sampler) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(view_dimension(dimension)),
             mip_level_count: (sampler.mip == MipFilter::None).then_some(1),
@@ -109,7 +110,7 @@ impl GpuTexture {
     }
 
     /// The sampler for this texture.
-    pub(super) fn sampler_state(&self, sampler: &Sampler, clamps: [bool; 3]) -> SamplerState {
+    fn sampler_state(&self, sampler: &Sampler, clamps: [bool; 3]) -> SamplerState {
         let axis = |i: usize| match sampler.address[i] {
             _ if clamps[i] => wgpu::AddressMode::ClampToEdge,
             AddressMode::Wrap => wgpu::AddressMode::Repeat,
@@ -148,7 +149,7 @@ impl GpuTexture {
 
 /// A sampler as a key: equal ones are the same object on the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct SamplerState {
+struct SamplerState {
     address: [wgpu::AddressMode; 3],
     mag: wgpu::FilterMode,
     min: wgpu::FilterMode,
@@ -158,7 +159,7 @@ pub(super) struct SamplerState {
 }
 
 impl SamplerState {
-    pub(super) fn create(&self, device: &Device) -> wgpu::Sampler {
+    fn create(&self, device: &Device) -> wgpu::Sampler {
         let [least, most] = self.lod_hundredths.map(|level| level as f32 / 100.0);
         device.device.create_sampler(&wgpu::SamplerDescriptor {
             address_mode_u: self.address[0],
@@ -171,6 +172,64 @@ impl SamplerState {
             lod_max_clamp: most,
             ..Default::default()
         })
+    }
+}
+
+/// The samplers that were made so far.
+#[derive(Debug, Default)]
+pub(super) struct Samplers(HashMap<SamplerState, wgpu::Sampler>);
+
+/// What is bound in group 1.
+pub(super) enum Bound {
+    View(wgpu::TextureView),
+    Sampler(wgpu::Sampler),
+}
+
+impl Bound {
+    /// The entry of the group.
+    pub(super) fn entry(&self, binding: u32) -> wgpu::BindGroupEntry<'_> {
+        wgpu::BindGroupEntry {
+            binding,
+            resource: match self {
+                Self::View(view) => wgpu::BindingResource::TextureView(view),
+                Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
+            },
+        }
+    }
+}
+
+impl Samplers {
+    /// What a binding of a stage with this texture wants; none if it is no texture and no sampler.
+    pub(super) fn bound(
+        &mut self,
+        device: &Device,
+        resource: &Resource,
+        texture: &GpuTexture,
+        sampler: &Sampler,
+    ) -> Option<Bound> {
+        match resource {
+            Resource::Texture { dimension, .. } => {
+                Some(Bound::View(texture.view(*dimension, sampler)))
+            }
+            Resource::Sampler { clamps, .. } => {
+                let state = texture.sampler_state(sampler, *clamps);
+                let known = self.0.entry(state).or_insert_with(|| state.create(device));
+                Some(Bound::Sampler(known.clone()))
+            }
+            Resource::Uniform { .. } => None,
+        }
+    }
+}
+
+/// What a translation must know of a stage with this texture, sampled like this.
+pub fn stage_options(texture: Option<&Texture>, sampler: &Sampler) -> StageOptions {
+    StageOptions {
+        texture: texture.map(Texture::kind),
+        seamless: sampler.seamless,
+        address: sampler.address,
+        filter: sampler.mag,
+        lod_bias: sampler.lod_bias != 0.0,
+        wide_texels: texture.is_some_and(|texture| texture.format() == Format::Rgba32F),
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::exec::STAGES;
 use crate::raster::RenderState;
 use crate::semantics::BumpState;
+use crate::texture::{Sampler, Texture};
 use crate::wgsl::{Field, Resource, UniformField};
 
 /// Where the values of a uniform block come from: the registers and states of Direct3D 8.
@@ -27,6 +28,18 @@ pub struct StageUniforms {
     pub border: [f32; 4],
     /// `D3DTSS_MIPMAPLODBIAS`.
     pub lod_bias: f32,
+}
+
+impl StageUniforms {
+    /// Those of a stage with this texture, sampled like this.
+    pub fn new(texture: Option<&Texture>, sampler: &Sampler, bump: BumpState) -> Self {
+        let border = sampler.border;
+        Self {
+            bump,
+            border: texture.map_or(border, |texture| texture.format().with_fill(border)),
+            lod_bias: sampler.lod_bias,
+        }
+    }
 }
 
 impl Uniforms<'_> {

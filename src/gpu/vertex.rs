@@ -54,8 +54,11 @@ impl VertexLayout {
         layout
     }
 
-    /// One buffer with an element an instance, four floats for each of these locations.
+    /// One buffer with an element an instance, four floats for each of these locations; none if there are none.
     pub(super) fn instances(locations: &[u32]) -> Self {
+        if locations.is_empty() {
+            return Self::default();
+        }
         let read = |(number, location): (u64, &u32)| wgpu::VertexAttribute {
             format: wgpu::VertexFormat::Float32x4,
             offset: 16 * number,

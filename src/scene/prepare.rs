@@ -6,7 +6,7 @@ use super::error::{Problems, rules};
 use super::shader::Shader;
 use super::{Scene, TextureSource};
 use crate::diagnostic::Span;
-use crate::exec::{STAGES, bind_constants};
+use crate::exec::{STAGES, bind_constants, overrides_definitions};
 use crate::kernel::Kernel;
 use crate::mesh::Mesh;
 use crate::raster::{FogDistance, RenderState, Topology};
@@ -82,19 +82,8 @@ impl PreparedDraw<'_> {
 
     /// Whether a constant that one of the shaders defines itself has been set to something else.
     pub fn overrides_definitions(&self) -> bool {
-        let differs = |kernel: &Kernel, constants: &[[f32; 4]]| {
-            bind_constants(kernel, &[])
-                .iter()
-                .zip(constants)
-                .enumerate()
-                .any(|(register, (own, bound))| {
-                    own.map(f32::to_bits) != bound.map(f32::to_bits)
-                        && (kernel.definitions.iter())
-                            .any(|(defined, _)| *defined as usize == register)
-                })
-        };
-        differs(&self.vertex.kernel, &self.vertex_constants)
-            || differs(&self.pixel.kernel, &self.pixel_constants)
+        overrides_definitions(&self.vertex.kernel, &self.vertex_constants)
+            || overrides_definitions(&self.pixel.kernel, &self.pixel_constants)
     }
 
     /// The vertices of the primitives in order; `None`: all, as they come.

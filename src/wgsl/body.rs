@@ -7,7 +7,7 @@ use super::layout::{Block, Field};
 use super::listing::Lines;
 use super::magnitude::{Magnitudes, Outcome};
 use super::number;
-use super::{Options, Stage};
+use super::{Observed, Options, Stage};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{ShaderKind, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
@@ -58,6 +58,10 @@ pub(super) fn slots_read(op: Op, mask: WriteMask, i: usize, options: &Options) -
 /// The components of every slot that a kernel reads when the textures have these shapes.
 pub(super) fn components_read(kernel: &Kernel, options: &Options) -> [WriteMask; SLOT_COUNT] {
     let mut read = [WriteMask::NONE; SLOT_COUNT];
+    let observed = options.observed.iter();
+    for slot in observed.flat_map(|observed| observed.of(kernel.version.kind())) {
+        read[slot.index()] = WriteMask::ALL;
+    }
     // Backwards, so that it is known which coordinates are sampled when the step comes that computes them.
     for step in kernel.steps.iter().rev() {
         let mask = kept(kernel, &read, step);
@@ -112,7 +116,7 @@ impl<'a> Body<'a> {
             options,
             block: Block::default(),
             helpers: Helpers::default(),
-            magnitudes: Magnitudes::new(kind, HashMap::new(), [false; 8]),
+            magnitudes: Magnitudes::new(kind, HashMap::new(), options),
             varying_widths,
             widths,
             read,
@@ -127,8 +131,7 @@ impl<'a> Body<'a> {
             .filter(|(index, _)| body.constant(*index) == Constant::Defined)
             .map(|(index, value)| (*index, bound_value(kind, *value)))
             .collect();
-        let wide = options.stages.map(|stage| stage.wide_texels);
-        body.magnitudes = Magnitudes::new(kind, known, wide);
+        body.magnitudes = Magnitudes::new(kind, known, options);
         let uniform = |index: &u32| body.constant(*index) == Constant::Uniform;
         let named = kernel
             .constants()
@@ -268,6 +271,28 @@ impl<'a> Body<'a> {
         }
         self.commit(&mut pending);
         self.lines.extend(lines.rest());
+    }
+
+    /// Leaves the registers that are looked at where they can be seen.
+    pub(super) fn observe(&mut self) {
+        let Some(observed) = &self.options.observed else {
+            return;
+        };
+        let variable = Observed::variable(self.kind());
+        for (number, slot) in observed.of(self.kind()).iter().enumerate() {
+            let name = self.name(*slot);
+            let value = match self.width(*slot) {
+                0 => "vec4f()".to_string(),
+                1 if *slot == Slot::ADDRESS => format!("vec4f(f32({name}))"),
+                1 => format!("vec4f({name})"),
+                4 => name,
+                width => {
+                    let zeros = vec!["0.0"; 4 - width].join(", ");
+                    format!("vec4f({name}, {zeros})")
+                }
+            };
+            self.push(format!("{variable}[{number}] = {value};"));
+        }
     }
 
     /// The registers, and what pixel shaders read through a clamp.

@@ -118,9 +118,10 @@ impl Helper {
                  fn logp(x: f32) -> vec4f {{\n    \
                      let v = abs(x);\n    \
                      if v < {SMALLEST_NORMAL} {{\n        return vec4f(-{LARGEST}, 1.0, -{LARGEST}, 1.0);\n    }}\n    \
-                     if !(v <= {LARGEST}) {{\n        return vec4f(v, 1.0, v, 1.0);\n    }}\n    \
-                     let exponent = f32(i32(bitcast<u32>(v) >> 23u) - 127);\n    \
-                     let mantissa = bitcast<f32>((bitcast<u32>(v) & 0x007fffffu) | 0x3f800000u);\n    \
+                     let bits = bitcast<u32>(v);\n    \
+                     if bits >= 0x7f800000u {{\n        return vec4f(v, select(1.0, v, bits > 0x7f800000u), v, 1.0); // infinity and NaN\n    }}\n    \
+                     let exponent = f32(i32(bits >> 23u) - 127);\n    \
+                     let mantissa = bitcast<f32>((bits & 0x007fffffu) | 0x3f800000u);\n    \
                      return vec4f(exponent, mantissa, partial_precision(log2_abs(v)), 1.0);\n}}\n"
             ),
             Self::ExpP => format!(
@@ -171,7 +172,9 @@ fn partial_precision(x: f32) -> f32 {
 const LIT: &str = "\
 // Lighting coefficients from N·L, N·H and the power of the specular term.
 fn lit(n_l: f32, n_h: f32, power: f32) -> vec4f {
-    let specular = exp2(clamp(power, -127.99609, 127.99609) * log2_abs(n_h));
+    let is_nan = (bitcast<u32>(power) & 0x7fffffffu) > 0x7f800000u;
+    let exponent = select(clamp(power, -127.99609, 127.99609), 0.0, is_nan);
+    let specular = select(exp2(exponent * log2_abs(n_h)), 1.0, exponent == 0.0);
     let diffuse = select(0.0, n_l, n_l > 0.0);
     return vec4f(1.0, diffuse, select(0.0, specular, n_l > 0.0 && n_h > 0.0), 1.0);
 }

@@ -6,12 +6,11 @@
 //!
 //! Assumed of what comes from outside: see [`super`], "What is assumed".
 
+use super::Options;
 use crate::isa::{ResultModifier, ShaderKind, SourceModifier, WriteMask};
 use crate::kernel::{Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use std::collections::HashMap;
 
-/// The largest magnitude of inputs, coordinates, vertex constants and stage states.
-const OUTSIDE: f64 = 65536.0;
 /// A number that may be infinite or NaN.
 const UNBOUNDED: f64 = f64::INFINITY;
 const LARGEST: f64 = f32::MAX as f64;
@@ -46,6 +45,8 @@ pub(super) struct Magnitudes {
     facts: Vec<[Option<Fact>; 4]>,
     /// The constants whose values are known.
     known: HashMap<u32, [f32; 4]>,
+    /// The largest magnitude of what comes from outside.
+    outside: f64,
     /// The largest magnitude of a texel of each stage.
     texels: [f64; 8],
 }
@@ -57,27 +58,29 @@ pub(super) struct Outcome {
 }
 
 impl Magnitudes {
-    pub(super) fn new(
-        kind: ShaderKind,
-        known: HashMap<u32, [f32; 4]>,
-        wide_texels: [bool; 8],
-    ) -> Self {
+    pub(super) fn new(kind: ShaderKind, known: HashMap<u32, [f32; 4]>, options: &Options) -> Self {
+        let outside = if options.wild_inputs {
+            UNBOUNDED
+        } else {
+            Options::TAME.into()
+        };
         let mut most = [[0.0; 4]; SLOT_COUNT];
         let inputs = (0..16).filter_map(Slot::input);
         let input = match kind {
-            ShaderKind::Vertex => OUTSIDE,
+            ShaderKind::Vertex => outside,
             ShaderKind::Pixel => 1.0,
         };
         inputs.for_each(|slot| most[slot.index()] = [input; 4]);
         let sets = (0..8).filter_map(Slot::texcoord);
-        sets.for_each(|slot| most[slot.index()] = [OUTSIDE; 4]);
+        sets.for_each(|slot| most[slot.index()] = [outside; 4]);
         Self {
             kind,
             most,
             writes: [[0; 4]; SLOT_COUNT],
             facts: vec![[const { None }; 4]; SLOT_COUNT],
             known,
-            texels: wide_texels.map(|wide| if wide { OUTSIDE } else { 1.0 }),
+            texels: (options.stages).map(|stage| if stage.wide_texels { outside } else { 1.0 }),
+            outside,
         }
     }
 
@@ -90,9 +93,9 @@ impl Magnitudes {
                 Some(value) if value[component].is_finite() => f64::from(value[component].abs()),
                 Some(_) => UNBOUNDED,
                 None if self.kind == ShaderKind::Pixel => 1.0,
-                None => OUTSIDE,
+                None => self.outside,
             },
-            Place::Relative(_) => OUTSIDE,
+            Place::Relative(_) => self.outside,
         };
         let modified = match operand.modifier {
             SourceModifier::Bias | SourceModifier::BiasNegate => most + 0.5,
@@ -225,8 +228,8 @@ impl Magnitudes {
             Op::LogP => UNBOUNDED,
             Op::Lit => [1.0, scalar, self.specular(step), 1.0][component],
             Op::Dst => [1.0, product(of(0, 1), of(1, 1)), of(0, 2), of(1, 3)][component],
-            Op::Bump(_) => a + OUTSIDE * (of(1, 0) + of(1, 1)),
-            Op::Luminance(_) => product(a, OUTSIDE * of(1, 2) + OUTSIDE),
+            Op::Bump(_) => a + product(self.outside, of(1, 0) + of(1, 1)),
+            Op::Luminance(_) => product(a, product(self.outside, of(1, 2)) + self.outside),
             Op::Sample(stage) => self.texels[usize::from(stage) & 7],
             Op::DivideZ | Op::DivideW | Op::Reflect | Op::Kill => UNBOUNDED,
         }

@@ -37,8 +37,8 @@
 //!
 //! Direct3D 8 says that 0 times anything is 0, also times infinity. A product is guarded where a factor may be infinite or
 //! NaN, under these assumptions: vertex data, texture coordinates, vertex constants and stage states are finite and no
-//! larger than 65536; texels lie in −1…1 unless [`StageOptions::wide_texels`] says otherwise; a vector multiplied by the
-//! reciprocal of its own length, as `dp3`, `rsq`, `mul` compute it, is no longer than 1, that is, not shorter than 1e-19
+//! larger than 65536 unless [`Options::wild_inputs`] says otherwise; texels lie in −1…1 unless
+//! [`StageOptions::wide_texels`] does; a vector multiplied by the reciprocal of its own length, as `dp3`, `rsq`, `mul` compute it, is no longer than 1, that is, not shorter than 1e-19
 //! before unless it is 0.
 //!
 //! Left to the GPU: denormal results, the sign of zero, NaN in coordinates and in saturation (0 on all that is known),
@@ -64,7 +64,7 @@ mod vertex;
 
 pub use error::TranslateError;
 pub use layout::{Field, UniformField};
-pub use options::{Fog, Options, Points, StageOptions};
+pub use options::{Fog, Observed, Options, Points, StageOptions};
 pub use reflection::{
     Binding, Definition, Dimension, Reflection, Resource, StageReflection, Varying, VertexInput,
 };
@@ -138,6 +138,7 @@ pub fn translate(
         let writes_depth = pixel.stage.kernel.writes_depth();
         sections.extend(pixel::output_structure(writes_depth).map(String::from));
     }
+    sections.extend(observed_variables(&parts, options));
     let mut helpers = Helpers::default();
     parts.iter().for_each(|part| helpers.add(&part.helpers));
     sections.extend(Some(helpers.text()).filter(|text| !text.is_empty()));
@@ -147,12 +148,30 @@ pub fn translate(
         reflection: Reflection {
             inputs: vertex.as_ref().map_or(Vec::new(), Part::inputs),
             varyings: varyings.list(),
+            position: varyings.position,
             vertex: vertex.as_ref().map(|part| part.reflection.clone()),
             pixel: pixel.as_ref().map(|part| part.reflection.clone()),
             bindings,
             baked: options.clone(),
         },
     })
+}
+
+/// What registers are left in that are looked at, and the switch that keeps pixels.
+fn observed_variables(parts: &[&Part<'_>], options: &Options) -> Option<String> {
+    let observed = options.observed.as_ref()?;
+    let mut lines = String::new();
+    for part in parts {
+        let count = observed.of(part.kind()).len();
+        let name = Observed::variable(part.kind());
+        if count > 0 {
+            lines.push_str(&format!("var<private> {name}: array<vec4f, {count}>;\n"));
+        }
+        if part.reflection.discards {
+            lines.push_str("var<private> keep: bool;\n");
+        }
+    }
+    (!lines.is_empty()).then_some(lines)
 }
 
 fn check(

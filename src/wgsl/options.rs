@@ -1,7 +1,9 @@
 //! What is baked into a translation, beside the shaders.
 
 use crate::exec::STAGES;
-use crate::raster::{Compare, FogDistance, FogMode};
+use crate::isa::ShaderKind;
+use crate::kernel::Slot;
+use crate::raster::{Compare, FogDistance, FogMode, RenderState, ShadeMode};
 use crate::texture::{AddressMode, Filter, TextureKind};
 
 /// What a translation is made for. The default is Direct3D 8's default state with a 2D texture in every stage.
@@ -27,10 +29,35 @@ pub struct Options {
     /// Whether dot products are written out as products and sums, so that their order is that of the specification;
     /// else they are the `dot` of WGSL, which leaves the order open.
     pub exact_dots: bool,
+    /// Whether vertex data, texture coordinates, vertex constants and stage states may be infinite, NaN or beyond
+    /// [`Self::TAME`]: then more products are guarded by the rule that 0 times anything is 0.
+    pub wild_inputs: bool,
+    /// The registers that are looked at from outside: the stages become functions for an entry point that looks.
+    pub observed: Option<Observed>,
     /// Name of the vertex entry point.
     pub vertex_entry: String,
     /// Name of the pixel entry point.
     pub pixel_entry: String,
+}
+
+impl Options {
+    /// The largest magnitude of what comes from outside, unless [`Self::wild_inputs`] says otherwise.
+    pub const TAME: f32 = 65536.0;
+
+    /// These options with what of the render states is baked in.
+    #[must_use]
+    pub fn with_state(self, state: &RenderState) -> Self {
+        Self {
+            fog: state.fog.enable.then_some(Fog {
+                table: state.fog.table,
+                distance: state.fog.distance,
+            }),
+            alpha_test: state.alpha_test.enable.then_some(state.alpha_test.func),
+            flat_shading: state.shade == ShadeMode::Flat,
+            clip_planes: state.clip_planes.iter().flatten().count() as u8,
+            ..self
+        }
+    }
 }
 
 impl Default for Options {
@@ -45,8 +72,47 @@ impl Default for Options {
             points: Points::None,
             clip_planes: 0,
             exact_dots: false,
+            wild_inputs: false,
+            observed: None,
             vertex_entry: "vs_main".into(),
             pixel_entry: "ps_main".into(),
+        }
+    }
+}
+
+/// Registers that are looked at from outside, as they are at the end of their shader.
+///
+/// A translation with them has no entry points: functions with the same names, parameters and results take their
+/// place, of the same lines. Each leaves its registers in a module variable ([`Self::VERTEX`], [`Self::PIXEL`]), an array
+/// of `vec4f` in this order, which only exists if there are any. Pixels are not discarded where the module variable `keep` is true, which only exists if the
+/// pixel shader may discard any.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Observed {
+    /// Registers of the vertex shader.
+    pub vertex: Vec<Slot>,
+    /// Registers of the pixel shader.
+    pub pixel: Vec<Slot>,
+}
+
+impl Observed {
+    /// The module variable with the registers of the vertex shader.
+    pub const VERTEX: &'static str = "observed_vs";
+    /// That with the registers of the pixel shader.
+    pub const PIXEL: &'static str = "observed_ps";
+
+    /// Those of one kind of shader.
+    pub(super) fn of(&self, kind: ShaderKind) -> &[Slot] {
+        match kind {
+            ShaderKind::Vertex => &self.vertex,
+            ShaderKind::Pixel => &self.pixel,
+        }
+    }
+
+    /// The name of the variable that they are left in.
+    pub(super) fn variable(kind: ShaderKind) -> &'static str {
+        match kind {
+            ShaderKind::Vertex => Self::VERTEX,
+            ShaderKind::Pixel => Self::PIXEL,
         }
     }
 }

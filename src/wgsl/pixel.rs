@@ -19,6 +19,7 @@ pub(super) fn output_structure(writes_depth: bool) -> Option<&'static str> {
 pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     body.statements();
     let mark = body.mark();
+    body.observe();
     tests(body, varyings);
     if let Some(fog) = body.options.fog {
         apply_fog(body, fog);
@@ -32,22 +33,20 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     } else {
         "return r0;"
     });
-    let parameter = match reads_inputs(varyings) {
+    let parameter = match varyings.reach_pixel() {
         true => "in: Varyings",
         false => "",
     };
-    let result = if depth {
-        "PixelOutput"
-    } else {
-        "@location(0) vec4f"
+    let (attribute, place) = match body.options.observed {
+        None => ("@fragment\n", "@location(0) "),
+        Some(_) => ("", ""),
+    };
+    let result = match depth {
+        true => "PixelOutput".to_string(),
+        false => format!("{place}vec4f"),
     };
     let name = &body.options.pixel_entry;
-    format!("@fragment\nfn {name}({parameter}) -> {result} {{\n")
-}
-
-/// Whether the function has a parameter: the vertex stage always gives a position, which only table fog looks at.
-fn reads_inputs(varyings: &Varyings) -> bool {
-    varyings.position || !varyings.list().is_empty()
+    format!("{attribute}fn {name}({parameter}) -> {result} {{\n")
 }
 
 /// Everything that takes the pixel out, behind all sampling, which must not come after it.
@@ -71,7 +70,11 @@ fn tests(body: &mut Body<'_>, varyings: &Varyings) {
     }
     if !conditions.is_empty() {
         body.note_discard();
-        body.push(format!("if {} {{", conditions.join(" || ")));
+        let condition = conditions.join(" || ");
+        body.push(match body.options.observed {
+            None => format!("if {condition} {{"),
+            Some(_) => format!("if ({condition}) && !keep {{"),
+        });
         body.push("    discard;");
         body.push("}");
     }

@@ -17,6 +17,8 @@ pub struct Reflection {
     pub inputs: Vec<VertexInput>,
     /// What goes from the vertex to the pixel stage.
     pub varyings: Vec<Varying>,
+    /// Whether the structure `Varyings` has the position, as `position`.
+    pub position: bool,
     /// What is to be bound.
     pub bindings: Vec<Binding>,
     /// What was baked in: fog, alpha test, texture kinds and all the rest.

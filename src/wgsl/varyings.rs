@@ -80,6 +80,11 @@ impl Varyings {
         }
     }
 
+    /// Whether the pixel stage has a parameter: the vertex stage always gives a position, which only table fog looks at.
+    pub(super) fn reach_pixel(&self) -> bool {
+        self.position || !self.list().is_empty()
+    }
+
     /// The varyings by location.
     pub(super) fn list(&self) -> Vec<Varying> {
         let one = |name: String, location: u32, components: usize, flat: bool| Varying {

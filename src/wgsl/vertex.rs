@@ -22,6 +22,7 @@ pub(super) fn input_structure(kernel: &Kernel) -> Option<String> {
 /// The function. The body is complete afterwards.
 pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     body.statements();
+    body.observe();
     outputs(body, varyings);
     let mut parameters = Vec::new();
     if body.options.points != Points::None {
@@ -31,7 +32,11 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
         parameters.push("in: VertexInput");
     }
     let (name, parameters) = (&body.options.vertex_entry, parameters.join(", "));
-    format!("@vertex\nfn {name}({parameters}) -> Varyings {{\n")
+    let attribute = match body.options.observed {
+        None => "@vertex\n",
+        Some(_) => "",
+    };
+    format!("{attribute}fn {name}({parameters}) -> Varyings {{\n")
 }
 
 fn outputs(body: &mut Body<'_>, varyings: &Varyings) {

@@ -3,14 +3,14 @@
 
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, bind_constants};
-use texcrd::gpu::{Device, PixelInput, StageUniforms, Uniforms, shade_pixels};
+use texcrd::gpu::{Device, InvocationInputs, Invocations, Shading};
 use texcrd::kernel::{self, Kernel, Slot, lower};
 use texcrd::listing;
 use texcrd::policy::Dialect;
 use texcrd::program::Program;
 use texcrd::raster::RenderState;
 use texcrd::semantics::saturate;
-use texcrd::wgsl::{Options, Stage, translate};
+use texcrd::wgsl::{Observed, Options, Stage, translate};
 
 /// How many inputs each listing is run with.
 const COUNT: usize = 500;
@@ -81,7 +81,7 @@ fn read(text: &str, sources: &mut SourceMap) -> (Program, Kernel) {
 
 /// Numbers from −1 to 1 that repeat from run to run (a linear congruence, Knuth's MMIX constants), none so small that a
 /// product would be denormal.
-fn inputs() -> Vec<PixelInput> {
+fn inputs() -> Vec<InvocationInputs> {
     let mut state = 20_020_501_u64;
     let mut next = || {
         state =
@@ -91,9 +91,10 @@ fn inputs() -> Vec<PixelInput> {
         if value.abs() < 1e-6 { 0.5 } else { value }
     };
     (0..COUNT)
-        .map(|_| PixelInput {
+        .map(|_| InvocationInputs {
             texcoords: std::array::from_fn(|_| std::array::from_fn(|_| next())),
             colors: std::array::from_fn(|_| std::array::from_fn(|_| next().abs())),
+            ..InvocationInputs::default()
         })
         .collect()
 }
@@ -103,7 +104,7 @@ fn constants(kernel: &Kernel) -> Vec<[f32; 4]> {
     bind_constants(kernel, &set)
 }
 
-fn on_cpu(kernel: &Kernel, input: &PixelInput) -> Option<[f32; 4]> {
+fn on_cpu(kernel: &Kernel, input: &InvocationInputs) -> Option<[f32; 4]> {
     let mut machine = Machine::<1>::new();
     for (i, value) in input.texcoords.iter().enumerate() {
         machine.load(Slot::texcoord(i)?, *value);
@@ -123,7 +124,7 @@ fn on_gpu(
     device: &Device,
     (program, kernel): (&Program, &Kernel),
     source: &SourceMap,
-    inputs: &[PixelInput],
+    inputs: &[InvocationInputs],
 ) -> Vec<Option<[f32; 4]>> {
     let stage = Stage {
         program,
@@ -132,17 +133,25 @@ fn on_gpu(
     };
     let options = Options {
         exact_dots: true,
+        observed: Some(Observed::default()),
         ..Options::default()
     };
     let translation = translate(None, Some(stage), &options).expect("what is lowered translates");
     let constants = constants(kernel);
-    let uniforms = Uniforms {
-        constants: &constants,
+    let inputs: Vec<InvocationInputs> = (inputs.iter())
+        .map(|input| InvocationInputs {
+            pixel_constants: constants.clone(),
+            ..input.clone()
+        })
+        .collect();
+    let shading = Shading {
+        translation: &translation,
+        stages: Default::default(),
         state: &RenderState::default(),
-        viewport: [1.0; 2],
-        stages: [StageUniforms::default(); 8],
     };
-    shade_pixels(device, &translation, &uniforms, inputs).expect("the GPU shades")
+    let seen = Invocations::new(device).registers(&shading, &inputs);
+    let seen = seen.expect("the GPU shades").into_iter();
+    seen.map(|seen| seen.depth.map(|_| seen.color)).collect()
 }
 
 /// Runs listings on both and hands every pair of numbers over.

@@ -4,8 +4,11 @@
 #![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 mod arithmetic;
+mod cases;
 mod frames;
 mod states;
+#[path = "../conformance/suite.rs"]
+mod suite;
 mod trouble;
 
 use texcrd::gpu::Device;

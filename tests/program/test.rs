@@ -122,5 +122,92 @@ fn what_cannot_be_read_is_no_failure_of_a_case() {
     assert_eq!(ran.status, 2);
     let empty = folder("test-empty").display().to_string();
     assert_eq!(texcrd(&["test", &empty]).status, 2);
-    assert_eq!(texcrd(&["test", "x.toml", "--on", "gpu"]).status, 2);
+    assert_eq!(texcrd(&["test", "x.toml", "--on", "moon"]).status, 2);
+    let ran = texcrd(&["test", "-", "--adapter", "0"]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("--on gpu or --on both"), "{}", ran.err);
+}
+
+/// Whether tests with a GPU are switched off, which is said.
+fn gpu_is_off() -> bool {
+    let off = std::env::var("TEXCRD_GPU").is_ok_and(|value| value == "off");
+    if off {
+        eprintln!("SKIPPED: TEXCRD_GPU=off");
+    }
+    off
+}
+
+#[test]
+fn both_sides_are_told_apart() {
+    if gpu_is_off() {
+        return;
+    }
+    let folder = cases("test-both");
+    let ran = texcrd(&["test", &folder, "--on", "both"]);
+    assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
+    for said in [
+        "FAILED",
+        "failed on cpu: ",
+        "failed on gpu: ",
+        "accepted on cpu: ",
+        "accepted on gpu: ",
+        "2 passed, 2 failed",
+        " on cpu and gpu, ",
+    ] {
+        assert!(ran.out.contains(said), "{said}: {}", ran.out);
+    }
+    // A line for each case, not for each side; the same wrong number and the same instruction from both.
+    let lines = ran.out.lines().take_while(|line| !line.is_empty());
+    assert_eq!(lines.count(), 4, "{}", ran.out);
+    for twice in ["r0.r    expected 0.75, got 0.5", "written by `mov r0, v0`"] {
+        assert_eq!(ran.out.matches(twice).count(), 2, "{}", ran.out);
+    }
+}
+
+#[test]
+fn json_has_an_object_for_each_side() {
+    if gpu_is_off() {
+        return;
+    }
+    let folder = cases("test-both-json");
+    let arguments = ["--filter", "b.toml", "--on", "both", "--format", "json"];
+    let ran = texcrd(&[&["test", folder.as_str()], &arguments[..]].concat());
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    let objects: Vec<Value> = (ran.out.lines())
+        .map(|line| serde_json::from_str(line).expect("an object a line"))
+        .collect();
+    let sides: Vec<&str> = objects.iter().map(|o| o["on"].as_str().unwrap()).collect();
+    assert_eq!(sides, ["cpu", "gpu"]);
+    for object in &objects {
+        let wrong = &object["invocations"][0]["wrong"][0];
+        assert_eq!(
+            (&wrong["expected"], &wrong["actual"]),
+            (&0.75.into(), &0.5.into())
+        );
+        assert_eq!(wrong["written_by"]["line"], 2);
+    }
+    // Tolerances are those that were applied. A `mov` is exact on either side.
+    assert_eq!(objects[1]["invocations"][0]["wrong"][0]["tolerance"], 1e-6);
+}
+
+#[test]
+fn one_side_alone() {
+    if gpu_is_off() {
+        return;
+    }
+    let ran = texcrd_with_input(&["test", "-", "--on", "gpu"], GOOD.as_bytes());
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let said = ran
+        .out
+        .starts_with("ok     <stdin>: a copy\n1 passed, 0 failed on gpu, ");
+    assert!(said, "{}", ran.out);
+}
+
+/// With the GPU switched off for tests this still holds: there is no such adapter.
+#[test]
+fn an_adapter_that_is_not_there() {
+    let arguments = ["test", "-", "--on", "gpu", "--adapter", "no such card"];
+    let ran = texcrd_with_input(&arguments, GOOD.as_bytes());
+    assert_eq!((ran.status, ran.out.as_str()), (2, ""));
+    assert!(ran.err.contains("adapter"), "{}", ran.err);
 }

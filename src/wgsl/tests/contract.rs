@@ -2,12 +2,13 @@
 
 use super::support::{Shader, valid, valid_pair};
 use crate::isa::ShaderKind;
+use crate::kernel::Slot;
 use crate::program::Usage;
 use crate::raster::{Compare, FogDistance, FogMode};
 use crate::texture::TextureKind;
 use crate::wgsl::{
-    Dimension, Field, Fog, Options, Points, Resource, StageOptions, TranslateError, Translation,
-    translate,
+    Dimension, Field, Fog, Observed, Options, Points, Resource, StageOptions, TranslateError,
+    Translation, translate,
 };
 
 fn everything() -> Options {
@@ -262,5 +263,68 @@ fn what_has_no_translation_is_refused() {
     assert_eq!(
         refused(true, false, &options),
         TranslateError::ClipPlanes(7)
+    );
+}
+
+/// `t2` is read by nothing and `r1` is not part of the colour; both are left where they can be seen, and the function
+/// is no entry point.
+#[test]
+fn registers_can_be_looked_at() {
+    let vs = Shader::new("vs.1.1\nmov r3, v0\nmov oPos, r3\nmov a0.x, v0.x\nmov oFog.y, v0.x\n");
+    let ps = Shader::new("ps.1.1\ntexkill t1\nmul r1, v0, v0\nmov r0, r1\n");
+    let observed = Observed {
+        vertex: [
+            Slot::temp(3),
+            Some(Slot::ADDRESS),
+            Some(Slot::FOG),
+            Slot::color_output(0),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
+        pixel: [Slot::temp(1), Slot::texcoord(2)]
+            .into_iter()
+            .flatten()
+            .collect(),
+    };
+    let options = Options {
+        observed: Some(observed),
+        ..Options::default()
+    };
+    let source = valid_pair(&vs, &ps, &options).source;
+    for line in [
+        "observed_vs[0] = r3;",
+        "observed_vs[1] = vec4f(f32(a0));",
+        "observed_vs[2] = vec4f(oFog);",
+        // What nothing writes is as Direct3D 8 leaves it: oD0 is 1.
+        "var oD0 = vec4f(1.0);",
+        "observed_vs[3] = oD0;",
+        "observed_ps[0] = r1;",
+        "observed_ps[1] = in.t2;",
+        "if (killed) && !keep {",
+    ] {
+        assert!(source.contains(line), "{line} in\n{source}");
+    }
+    assert!(
+        !source.contains("@vertex") && !source.contains("@fragment"),
+        "{source}"
+    );
+}
+
+/// 65536 times 65536 is finite; what may be anything needs the rule that 0 times anything is 0.
+#[test]
+fn wild_inputs_are_guarded() {
+    let source = |wild_inputs| {
+        let options = Options {
+            wild_inputs,
+            ..Options::default()
+        };
+        valid("vs.1.1\nmul oPos, v0, c0\n", &options).source
+    };
+    assert!(!source(false).contains("mul_zero"));
+    assert!(
+        source(true).contains("mul_zero4(in.v0, vs.c[0])"),
+        "{}",
+        source(true)
     );
 }
