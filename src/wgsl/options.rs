@@ -3,7 +3,7 @@
 use crate::exec::STAGES;
 use crate::isa::ShaderKind;
 use crate::kernel::Slot;
-use crate::raster::{Compare, FogDistance, FogMode, RenderState, ShadeMode};
+use crate::raster::{Compare, FogDistance, FogMode, RegisterPicture, RenderState, ShadeMode};
 use crate::texture::{AddressMode, Filter, TextureKind};
 
 /// What a translation is made for. The default is Direct3D 8's default state with a 2D texture in every stage.
@@ -34,6 +34,10 @@ pub struct Options {
     pub wild_inputs: bool,
     /// The registers that are looked at from outside: the stages become functions for an entry point that looks.
     pub observed: Option<Observed>,
+    /// A register of the pixel shader that is returned in place of the colour, as it is after some instructions: the
+    /// shader is cut there. Components that nothing has written are 0. Neither fog nor the alpha test touch it; `texkill`
+    /// as far as it has run does, unless the view is [`View::Exact`](crate::raster::View::Exact).
+    pub show: Option<RegisterPicture>,
     /// Name of the vertex entry point.
     pub vertex_entry: String,
     /// Name of the pixel entry point.
@@ -74,6 +78,7 @@ impl Default for Options {
             exact_dots: false,
             wild_inputs: false,
             observed: None,
+            show: None,
             vertex_entry: "vs_main".into(),
             pixel_entry: "ps_main".into(),
         }
