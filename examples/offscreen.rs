@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::load(&path, &bytes, &resolver, &LoadOptions::default())?;
 
     let device = Device::open(None)?;
-    let gpu = Renderer::new(&device).render(&scene, None, &|_| ())?;
+    let gpu = Renderer::new(&device).render(&scene, &RenderOptions::default(), &|_| ())?;
     gpu.save("gpu.png")?;
 
     let cpu = scene.render(&RenderOptions::default(), &|_| ())?;

@@ -327,6 +327,7 @@ pub(super) fn json_number(number: f32) -> Value {
     }
 }
 
-fn json_vector(value: [f32; 4]) -> Value {
+/// As [`json_number`].
+pub(super) fn json_vector(value: [f32; 4]) -> Value {
     Value::Array(value.into_iter().map(json_number).collect())
 }

@@ -3,8 +3,8 @@
 use super::show::Show;
 use super::{Failure, Outcome, dialect, files, scene};
 use clap::ValueEnum;
-use image::RgbaImage;
 use std::path::PathBuf;
+use texcrd::gpu::Renderer;
 use texcrd::policy::Dialect;
 use texcrd::raster::RegisterPicture;
 use texcrd::scene::{PreparedDraw, RenderOptions, Scene};
@@ -29,7 +29,8 @@ Examples:
   texcrd run scene.toml -o small.png --size 320x240
   texcrd run asm/stained_glass/figure5.toml -o figure4.png --show oT5 --mag
   texcrd run scene.toml -o gpu.png --on gpu
-  texcrd run scene.toml -o r2.png --show r2@12 --abs --scale 0.5")]
+  texcrd run scene.toml -o r2.png --show r2@12 --abs --scale 0.5
+  texcrd run scene.toml -o r2.png --show r2@12 --on gpu")]
 pub(super) struct Arguments {
     /// The scene file.
     #[arg(value_name = "SCENE")]
@@ -80,41 +81,31 @@ fn scale(text: &str) -> Result<f32, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    if arguments.on == Path::Gpu && arguments.show.is_some() {
-        return Err(Failure::Io(
-            "--show: registers are pictured on the CPU".into(),
-        ));
-    }
     if arguments.on == Path::Cpu && arguments.adapter.is_some() {
         return Err(Failure::Io("--adapter: only with --on gpu".into()));
     }
     files::can_be_written(&arguments.output)?;
     let scene = scene::load(&arguments.scene, arguments.dialect)?;
-    let picture = match arguments.on {
-        Path::Cpu => on_cpu(arguments, &scene)?,
-        Path::Gpu => {
-            let device = scene::device(arguments.adapter.as_deref())?;
-            scene::draw_on_gpu(&device, &scene, &arguments.scene, arguments.size)?
-        }
-    };
-    scene::write_png(&arguments.output, &picture)
-}
-
-fn on_cpu(arguments: &Arguments, scene: &Scene) -> Result<RgbaImage, Failure> {
     let show = match &arguments.show {
-        Some(show) => Some(register(arguments, show, scene)?),
+        Some(show) => Some(register(arguments, show, &scene)?),
         None => None,
     };
     let options = RenderOptions {
         size: arguments.size,
         show,
     };
-    let bar = scene::progress_bar();
-    let target = scene
-        .render(&options, &|progress| scene::show(&bar, &progress))
-        .map_err(|e| Failure::Input(format!("{}: {e}", arguments.scene)))?;
-    bar.finish_and_clear();
-    Ok(target.to_image())
+    let picture = match arguments.on {
+        Path::Cpu => (scene::draw_on_cpu(&scene, &arguments.scene, &options)?)
+            .picture()
+            .to_image(),
+        Path::Gpu => {
+            let device = scene::device(arguments.adapter.as_deref())?;
+            let mut renderer = Renderer::new(&device);
+            let frame = scene::draw_on_gpu(&mut renderer, &scene, &arguments.scene, &options, &[])?;
+            frame.picture().clone()
+        }
+    };
+    scene::write_png(&arguments.output, &picture)
 }
 
 /// The register to show, as the pixel shader of its draw has it.

@@ -7,10 +7,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use texcrd::diagnostic::{Diagnostic, SourceFile};
-use texcrd::gpu::{Device, GpuError, Renderer};
+use texcrd::gpu::{Device, Frame, GpuError, Renderer};
 use texcrd::policy::Dialect;
 use texcrd::raster::Target;
-use texcrd::scene::{DirectoryResolver, LoadOptions, Progress, Scene};
+use texcrd::scene::{
+    DirectoryResolver, LoadOptions, Progress, RenderOptions, Rendering, Scene, TargetPicture,
+};
 
 /// The value parser of `--size`.
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
@@ -93,17 +95,30 @@ pub(super) fn device(adapter: Option<&str>) -> Result<Device, Failure> {
     })
 }
 
-/// Draws a scene on the GPU, with a bar while it lasts.
-pub(super) fn draw_on_gpu(
-    device: &Device,
-    scene: &Scene,
+/// Draws a scene on the CPU, with a bar while it lasts.
+pub(super) fn draw_on_cpu<'s>(
+    scene: &'s Scene,
     path: &str,
-    size: Option<[u32; 2]>,
-) -> Result<RgbaImage, Failure> {
+    options: &RenderOptions,
+) -> Result<Rendering<'s>, Failure> {
     let bar = progress_bar();
-    let picture = Renderer::new(device).render(scene, size, &|progress| show(&bar, &progress));
+    let drawn = scene.rendering(options, &|progress| show(&bar, &progress));
     bar.finish_and_clear();
-    picture.map_err(|error| Failure::Input(format!("{path}: {error}")))
+    drawn.map_err(|error| Failure::Input(format!("{path}: {error}")))
+}
+
+/// Draws a scene on the GPU, with a bar while it lasts; what is given of render targets is seen instead of what was drawn.
+pub(super) fn draw_on_gpu<'r, 'd>(
+    renderer: &'r mut Renderer<'d>,
+    scene: &'r Scene,
+    path: &str,
+    options: &RenderOptions,
+    given: &[TargetPicture],
+) -> Result<Frame<'r, 'd>, Failure> {
+    let bar = progress_bar();
+    let drawn = renderer.frame(scene, options, given, &|progress| show(&bar, &progress));
+    bar.finish_and_clear();
+    drawn.map_err(|error| Failure::Input(format!("{path}: {error}")))
 }
 
 /// Writes a picture as PNG.

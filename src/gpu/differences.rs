@@ -2,6 +2,8 @@
 
 use image::RgbaImage;
 
+use crate::raster::Target;
+
 /// The differences between two pictures of one size, in steps of 1/255.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
@@ -31,6 +33,20 @@ pub struct WorstPixel {
 impl Differences {
     /// Compares two pictures; none if they are not of one size.
     pub fn between(cpu: &RgbaImage, gpu: &RgbaImage) -> Option<Self> {
+        Self::among(cpu, gpu, |_, _| true)
+    }
+
+    /// Compares what the CPU has drawn with the picture of a GPU, the pixels inside of triangles ([`Target::inside`]) and
+    /// those on edges apart; none if they are not of one size.
+    pub fn inside_and_on_edges(cpu: &Target, gpu: &RgbaImage) -> Option<[Self; 2]> {
+        let picture = cpu.to_image();
+        let inside = Self::among(&picture, gpu, |x, y| cpu.inside(x, y))?;
+        let edges = Self::among(&picture, gpu, |x, y| !cpu.inside(x, y))?;
+        Some([inside, edges])
+    }
+
+    /// Compares the pixels that count; none if the pictures are not of one size.
+    fn among(cpu: &RgbaImage, gpu: &RgbaImage, counts: impl Fn(u32, u32) -> bool) -> Option<Self> {
         if cpu.dimensions() != gpu.dimensions() {
             return None;
         }
@@ -41,7 +57,8 @@ impl Differences {
             worst: None,
         };
         let mut most = 0;
-        for ((x, y, a), b) in cpu.enumerate_pixels().zip(gpu.pixels()) {
+        let pixels = cpu.enumerate_pixels().zip(gpu.pixels());
+        for ((x, y, a), b) in pixels.filter(|((x, y, _), _)| counts(*x, *y)) {
             let mut of_pixel = 0;
             for (channel, (a, b)) in a.0.into_iter().zip(b.0).enumerate() {
                 let difference = a.abs_diff(b);
@@ -86,6 +103,11 @@ impl Differences {
         counts.filter(|(_, count)| *count > 0)
     }
 
+    /// How many pixels have this as the difference of their worst channel.
+    pub fn count(&self, difference: u8) -> u64 {
+        self.histogram[usize::from(difference)]
+    }
+
     /// How many pixels have a channel that differs by more than this.
     pub fn above(&self, tolerance: u8) -> u64 {
         (self.counts())
@@ -98,6 +120,7 @@ impl Differences {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::ColorFormat;
     use image::Rgba;
 
     #[test]
@@ -117,5 +140,21 @@ mod tests {
         assert_eq!((worst.x, worst.y, worst.gpu), (0, 1, [10, 20, 25, 255]));
         assert_eq!(Differences::between(&a, &RgbaImage::new(2, 3)), None);
         assert_eq!(Differences::between(&a, &a).unwrap().worst, None);
+    }
+
+    /// All depths are 1, so that every pixel is inside; of two columns none is.
+    #[test]
+    fn inside_and_edges_make_up_the_whole() {
+        let differences = |width: u32| {
+            let cpu = Target::new(width, 3, ColorFormat::A8R8G8B8).unwrap();
+            let gpu = RgbaImage::from_pixel(width, 3, Rgba([0, 0, 7, 0]));
+            let [inside, edges] = Differences::inside_and_on_edges(&cpu, &gpu).unwrap();
+            [
+                (inside.pixels(), inside.max()),
+                (edges.pixels(), edges.max()),
+            ]
+        };
+        assert_eq!(differences(3), [(9, 7), (0, 0)]);
+        assert_eq!(differences(2), [(0, 0), (6, 7)]);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::buffers::{UniformArena, filled};
 use super::harness::{Look, Rows, locations, with_entries};
-use super::picture::{COLOR_FORMAT, Picture, depth_format};
+use super::picture::{COLOR_FORMAT, Picture, depth_format, floats, number};
 use super::pipeline::{Pipeline, Pipelines};
 use super::state::fixed_state;
 use super::texture::{GpuTexture, Samplers};
@@ -100,11 +100,7 @@ impl<'d> Invocations<'d> {
         let mut seen = Vec::with_capacity(inputs.len());
         for some in inputs.chunks((MOST / rows.count).max(1)) {
             let (colors, depths) = self.draw(shading, some, Look::Registers, [0.0; 4])?;
-            let texels = colors.chunks_exact(16).map(|texel| {
-                let channel = |i: usize| number(texel.get(4 * i..4 * i + 4).unwrap_or_default());
-                [channel(0), channel(1), channel(2), channel(3)]
-            });
-            let texels: Vec<[f32; 4]> = texels.collect();
+            let texels = floats(&colors);
             let depths: Vec<f32> = depths.chunks_exact(4).map(number).collect();
             let invocations = texels
                 .chunks_exact(rows.count)
@@ -192,7 +188,7 @@ impl<'d> Invocations<'d> {
         );
         let picture = Picture::new(device, size, format, depth, look == Look::Registers);
         let mut encoder = device.device.create_command_encoder(&Default::default());
-        let mut commands = picture.begin(&mut encoder, clear);
+        let mut commands = picture.begin(&mut encoder, Some(clear));
         commands.set_pipeline(&pipeline.pipeline);
         commands.set_bind_group(1, &textures, &[]);
         if !locations.is_empty() {
@@ -240,10 +236,6 @@ impl<'d> Invocations<'d> {
             .collect();
         Ok(group(self.device, &pipeline.groups[1], &entries))
     }
-}
-
-fn number(bytes: &[u8]) -> f32 {
-    <[u8; 4]>::try_from(bytes).map_or(0.0, f32::from_le_bytes)
 }
 
 fn group(

@@ -20,7 +20,8 @@
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
 //! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
-//! `invocations` runs shaders for single invocations, for tests, by way of the entry points of `harness`.
+//! `registers` and `parting` look into one pixel of them, `invocations` runs shaders for single invocations, for tests, by way
+//! of the entry points of `harness`.
 
 mod buffers;
 mod device;
@@ -28,8 +29,10 @@ mod differences;
 mod error;
 mod harness;
 mod invocations;
+mod parting;
 mod picture;
 mod pipeline;
+mod registers;
 mod renderer;
 mod state;
 mod texture;
@@ -40,8 +43,13 @@ pub use device::{AdapterInfo, Device, adapters};
 pub use differences::{Differences, WorstPixel};
 pub use error::GpuError;
 pub use invocations::{InvocationInputs, Invocations, Seen, Shading};
+pub use parting::{
+    FragmentComparison, LineComparison, MOST_FRAGMENTS, Pair, Parting, PixelComparison,
+    SampledTexture, compare_pixel,
+};
 pub use pipeline::bind_group_layouts;
-pub use renderer::Renderer;
+pub use registers::PixelRegisters;
+pub use renderer::{Frame, Renderer};
 pub use state::{FixedState, fixed_state};
 pub use texture::stage_options;
 pub use uniform::{StageUniforms, Uniforms};

@@ -61,15 +61,17 @@ impl Picture {
         }
     }
 
-    /// Begins a pass: the colour cleared to this one, depth to 1, stencil to 0.
+    /// Begins a pass: the colour cleared to this one, or left as it is; depth cleared to 1, stencil to 0.
     pub(super) fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
-        clear: [f64; 4],
+        clear: Option<[f64; 4]>,
     ) -> wgpu::RenderPass<'e> {
         let color = self.color.create_view(&Default::default());
         let depth = self.depth.create_view(&Default::default());
-        let [r, g, b, a] = clear;
+        let load = clear.map_or(wgpu::LoadOp::Load, |[r, g, b, a]| {
+            wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a })
+        });
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: None,
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -77,7 +79,7 @@ impl Picture {
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
+                    load,
                     store: wgpu::StoreOp::Store,
                 },
             })],
@@ -121,6 +123,79 @@ impl Picture {
         let depths = depth.map_or(Ok(Vec::new()), |depth| depth.bytes(device))?;
         Ok((colors, depths))
     }
+
+    /// Copies the colour of one pixel to a place in a buffer, whose offset is a multiple of its size.
+    pub(super) fn copy_pixel(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        [x, y]: [u32; 2],
+        buffer: &wgpu::Buffer,
+        offset: u64,
+    ) {
+        let mut from = self.color.as_image_copy();
+        from.origin = wgpu::Origin3d { x, y, z: 0 };
+        encoder.copy_texture_to_buffer(
+            from,
+            wgpu::TexelCopyBufferInfo {
+                buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset,
+                    bytes_per_row: None,
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d {
+                width: 1,
+                height: 1,
+                depth_or_array_layers: 1,
+            },
+        );
+    }
+}
+
+/// A buffer of so many bytes that things are copied into to be read.
+pub(super) fn readback(device: &Device, size: u64) -> wgpu::Buffer {
+    device.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size,
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    })
+}
+
+/// Waits for what was submitted, and gives the bytes of a [`readback`] buffer.
+///
+/// # Errors
+/// [`GpuError::Device`] and [`GpuError::Lost`].
+pub(super) fn content(device: &Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    let (send, receive) = mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
+        // Nobody listens any more if the wait below failed.
+        let _ = send.send(mapped);
+    });
+    device.wait()?;
+    match receive.try_recv() {
+        Ok(Ok(())) => {}
+        Ok(Err(error)) => return Err(GpuError::Device(error.to_string())),
+        Err(error) => return Err(GpuError::Lost(error.to_string())),
+    }
+    let mapped =
+        (buffer.get_mapped_range(..)).map_err(|error| GpuError::Device(error.to_string()))?;
+    Ok(mapped.to_vec())
+}
+
+/// A 32-bit float as it comes back.
+pub(super) fn number(bytes: &[u8]) -> f32 {
+    <[u8; 4]>::try_from(bytes).map_or(0.0, f32::from_le_bytes)
+}
+
+/// Texels of four 32-bit floats.
+pub(super) fn floats(bytes: &[u8]) -> Vec<[f32; 4]> {
+    let texel = |bytes: &[u8]| {
+        let channel = |i: usize| number(bytes.get(4 * i..4 * i + 4).unwrap_or_default());
+        [channel(0), channel(1), channel(2), channel(3)]
+    };
+    bytes.chunks_exact(16).map(texel).collect()
 }
 
 /// A texture on its way back.
@@ -137,12 +212,7 @@ impl Copied {
         let texel = texture.format().block_copy_size(None).unwrap_or(4);
         let row = size.width * texel;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
-            label: None,
-            size: u64::from(padded) * u64::from(size.height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
+        let buffer = readback(device, u64::from(padded) * u64::from(size.height));
         encoder.copy_texture_to_buffer(
             texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
@@ -163,21 +233,9 @@ impl Copied {
 
     /// Waits for the content.
     fn bytes(&self, device: &Device) -> Result<Vec<u8>, GpuError> {
-        let (send, receive) = mpsc::channel();
-        (self.buffer).map_async(wgpu::MapMode::Read, .., move |mapped| {
-            // Nobody listens any more if the wait below failed.
-            let _ = send.send(mapped);
-        });
-        device.wait()?;
-        match receive.try_recv() {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => return Err(GpuError::Device(error.to_string())),
-            Err(error) => return Err(GpuError::Lost(error.to_string())),
-        }
-        let mapped = (self.buffer.get_mapped_range(..))
-            .map_err(|error| GpuError::Device(error.to_string()))?;
+        let bytes = content(device, &self.buffer)?;
         let [row, padded] = self.row;
-        Ok(mapped
+        Ok(bytes
             .chunks_exact(padded)
             .flat_map(|padded| padded.iter().take(row))
             .copied()

@@ -2,18 +2,20 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::ops::Range;
 
 use image::RgbaImage;
 
 use super::buffers::{MeshBuffers, UniformArena};
 use super::picture::{COLOR_FORMAT, Picture, depth_format};
 use super::pipeline::Pipelines;
-use super::state::fixed_state;
+use super::state::{FixedState, fixed_state};
 use super::texture::{Bound, GpuTexture, Samplers, stage_options};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
-use crate::raster::Topology;
+use crate::raster::{RegisterPicture, RenderState, Topology};
 use crate::scene::{
-    Output, Pass, PreparedDraw, Progress, Rendered, Scene, Shader, TargetPicture, clear_color,
+    Output, Pass, PreparedDraw, Progress, RenderOptions, Rendered, Scene, Shader, TargetPicture,
+    clear_color,
 };
 use crate::wgsl::{self, Options, Points, Resource, Translation, translate};
 
@@ -37,63 +39,71 @@ impl<'d> Renderer<'d> {
 
     /// Renders the picture of a scene, and before it the render targets that it needs, off-screen.
     ///
-    /// `size` is width and height of the picture in pixels, instead of those of the scene; `progress` is called before
-    /// each draw. What render targets hold is read back, and mip levels and diffuse cube maps are made of it by the same
-    /// code as on the CPU, so that a difference between the two paths is one of drawing.
+    /// `progress` is called before each draw. What render targets hold is read back, and mip levels and diffuse cube maps
+    /// are made of it by the same code as on the CPU, so that a difference between the two paths is one of drawing.
     ///
     /// # Errors
-    /// [`GpuError`] for sizes and states that the device cannot do, and for what the device reports.
+    /// [`GpuError`] for sizes and states that the device cannot do, for a draw to show that there is not, and for what
+    /// the device reports.
     pub fn render(
         &mut self,
         scene: &Scene,
-        size: Option<[u32; 2]>,
+        options: &RenderOptions,
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<RgbaImage, GpuError> {
-        self.render_all(scene, size, &[], progress)
-            .map(|(picture, _)| picture)
+        Ok(self.frame(scene, options, &[], progress)?.picture)
     }
 
-    /// [`Renderer::render`], and what the render targets held, in the order in which they were drawn.
+    /// Renders like [`Self::render`], and keeps with the picture what the render targets held, and what is needed to ask
+    /// for the registers of a pixel.
     ///
     /// Where `given` has a face of a target, everything that is drawn after it sees that instead of what was drawn. With
-    /// the pictures of [`Scene::render_all`] each target and the picture are drawn from the same inputs as on the CPU, and
-    /// a difference in one is not seen again in the next.
+    /// [`Rendering::target_pictures`](crate::scene::Rendering::target_pictures) each target and the picture are drawn from
+    /// the same inputs as on the CPU, and a difference in one is not seen again in the next.
     ///
     /// # Errors
-    /// As for [`Renderer::render`], and [`GpuError::Render`] for given pictures that cannot become a texture.
-    pub fn render_all(
-        &mut self,
-        scene: &Scene,
-        size: Option<[u32; 2]>,
+    /// As [`Self::render`], and [`GpuError::Render`] for given pictures that cannot become a texture.
+    pub fn frame<'r>(
+        &'r mut self,
+        scene: &'r Scene,
+        options: &RenderOptions,
         given: &[TargetPicture],
         progress: &dyn Fn(Progress<'_>),
-    ) -> Result<(RgbaImage, Vec<TargetPicture>), GpuError> {
-        let passes = scene.passes(size.unwrap_or(scene.size()));
-        let total = passes.iter().map(|pass| pass.draws.len()).sum();
+    ) -> Result<Frame<'r, 'd>, GpuError> {
+        let size = options.size.unwrap_or(scene.size());
+        let passes = scene.passes(size);
+        let shown = match &options.show {
+            Some(show) => Some((scene.shown_draw(show)?, show.picture)),
+            None => None,
+        };
+        let mut steps = Steps {
+            done: 0,
+            total: passes.iter().map(|pass| pass.draws.len()).sum(),
+            progress,
+        };
         let mut frame = Frame {
             renderer: self,
             scene,
             rendered: Rendered::new(scene),
             textures: HashMap::new(),
             meshes: MeshBuffers::default(),
-            done: 0,
-            total,
-            progress,
+            size,
+            picture: RgbaImage::new(0, 0),
+            targets: Vec::new(),
         };
-        let mut targets = Vec::new();
-        let mut result = RgbaImage::new(0, 0);
         for pass in &passes {
-            let picture = frame.pass(pass)?;
             match pass.output {
-                Output::Picture => result = picture,
+                Output::Picture => frame.picture = frame.pass(pass, shown, &mut steps)?,
                 Output::Target { target, face } => {
+                    let picture = frame.pass(pass, None, &mut steps)?;
                     let is_this =
                         |given: &&TargetPicture| (given.target, given.face) == (target, face);
-                    let seen = given.iter().find(is_this).map(|given| &given.picture);
-                    frame
-                        .rendered
-                        .take_face(target, face, seen.unwrap_or(&picture))?;
-                    targets.push(TargetPicture {
+                    let seen = given
+                        .iter()
+                        .find(is_this)
+                        .map_or(&picture, |given| &given.picture);
+                    frame.rendered.take_face(target, face, seen)?;
+                    frame.targets.push(TargetPicture {
                         target,
                         face,
                         picture,
@@ -101,11 +111,19 @@ impl<'d> Renderer<'d> {
                 }
             }
         }
-        Ok((result, targets))
+        Ok(frame)
     }
 }
 
-/// The translation of a draw's shaders, linked, with all its states baked in.
+/// How far a frame is, and who is told.
+struct Steps<'p> {
+    done: usize,
+    total: usize,
+    progress: &'p dyn Fn(Progress<'_>),
+}
+
+/// The translation of a draw's shaders, linked, with all its states baked in; with a register in place of the colour if
+/// one is to be shown.
 ///
 /// # Errors
 /// [`GpuError::Translate`].
@@ -113,6 +131,7 @@ fn translation(
     scene: &Scene,
     draw: &PreparedDraw<'_>,
     rendered: &Rendered<'_>,
+    show: Option<RegisterPicture>,
 ) -> Result<Translation, GpuError> {
     let state = &draw.state;
     let stages = draw.stages.each_ref().map(|stage| {
@@ -127,6 +146,7 @@ fn translation(
             (Topology::PointList, false) => Points::Quads,
             _ => Points::None,
         },
+        show,
         ..Options::default().with_state(state)
     };
     let (vertex, pixel) = (stage(scene, draw.vertex), stage(scene, draw.pixel));
@@ -144,32 +164,72 @@ fn stage<'a>(scene: &'a Scene, shader: &'a Shader) -> wgsl::Stage<'a> {
     }
 }
 
-/// One picture while it is drawn.
-struct Frame<'a, 'd> {
-    renderer: &'a mut Renderer<'d>,
-    scene: &'a Scene,
-    rendered: Rendered<'a>,
+/// A scene that was rendered on a GPU: its picture, and what is on the device for it.
+pub struct Frame<'r, 'd> {
+    pub(super) renderer: &'r mut Renderer<'d>,
+    scene: &'r Scene,
+    rendered: Rendered<'r>,
     /// The textures on the device, by their number in the scene.
     textures: HashMap<usize, GpuTexture>,
     meshes: MeshBuffers,
-    done: usize,
-    total: usize,
-    progress: &'a dyn Fn(Progress<'_>),
+    size: [u32; 2],
+    picture: RgbaImage,
+    targets: Vec<TargetPicture>,
+}
+
+/// What a draw is drawn with.
+pub(super) struct Drawing {
+    translation: Translation,
+    /// The places of the uniform blocks in the arena, by binding.
+    places: Vec<(u32, Range<u64>)>,
+    fixed: FixedState,
+    format: wgpu::TextureFormat,
 }
 
 /// A draw that only has to be encoded.
-struct Ready {
+pub(super) struct Ready {
     pipeline: wgpu::RenderPipeline,
     groups: [wgpu::BindGroup; 2],
     vertices: Vec<wgpu::Buffer>,
-    indices: Option<(wgpu::Buffer, u32)>,
-    /// Vertices of one instance, and instances.
-    counts: [u32; 2],
+    indices: Option<wgpu::Buffer>,
+    /// The indices, or vertices of each instance.
+    corners: Range<u32>,
+    instances: Range<u32>,
     stencil: u32,
 }
 
-impl Frame<'_, '_> {
-    fn pass(&mut self, pass: &Pass<'_>) -> Result<RgbaImage, GpuError> {
+impl<'r, 'd> Frame<'r, 'd> {
+    /// The scene.
+    pub fn scene(&self) -> &'r Scene {
+        self.scene
+    }
+
+    /// The device.
+    pub fn device(&self) -> &'d Device {
+        self.renderer.device
+    }
+
+    /// The picture.
+    pub fn picture(&self) -> &RgbaImage {
+        &self.picture
+    }
+
+    /// What the render targets held, face by face in the order in which they were drawn.
+    pub fn targets(&self) -> &[TargetPicture] {
+        &self.targets
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    fn pass(
+        &mut self,
+        pass: &Pass<'_>,
+        shown: Option<(usize, RegisterPicture)>,
+        steps: &mut Steps<'_>,
+    ) -> Result<RgbaImage, GpuError> {
         let device = self.renderer.device;
         let [width, height] = pass.size;
         if width == 0 || height == 0 {
@@ -182,35 +242,74 @@ impl Frame<'_, '_> {
             Output::Picture => None,
             Output::Target { target, .. } => self.scene.target(target).map(|info| info.name),
         };
-        let mut translations = Vec::with_capacity(pass.draws.len());
         let mut arena = UniformArena::new(device);
-        for draw in &pass.draws {
-            let translation = translation(self.scene, draw, &self.rendered)?;
-            let places = self.uniforms(draw, &translation, pass.size, &mut arena);
-            translations.push((translation, places));
+        let mut drawings = Vec::with_capacity(pass.draws.len());
+        for (place, draw) in pass.draws.iter().enumerate() {
+            let show = shown.filter(|(at, _)| *at == place).map(|(_, show)| show);
+            let mut state = draw.state.clone();
+            // A register covers what is behind it.
+            state.blend.enable &= show.is_none();
+            drawings.push(self.drawing(
+                draw,
+                &state,
+                show,
+                pass.size,
+                (COLOR_FORMAT, depth),
+                &mut arena,
+            )?);
         }
         let uniforms = arena.upload(device);
         let mut ready = Vec::with_capacity(pass.draws.len());
-        for (draw, (translation, places)) in pass.draws.iter().zip(&translations) {
-            (self.progress)(Progress {
-                done: self.done,
-                total: self.total,
+        for (draw, drawing) in pass.draws.iter().zip(&drawings) {
+            (steps.progress)(Progress {
+                done: steps.done,
+                total: steps.total,
                 target,
                 draw: draw.name,
             });
-            ready.extend(self.prepare(draw, translation, places, &uniforms, depth)?);
-            self.done += 1;
+            ready.extend(self.prepare(draw, drawing, &uniforms)?);
+            steps.done += 1;
         }
         let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, false);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         // As eight bits hold it, so that rounding is not left to the device.
         let clear = clear_color(pass.clear).map(|byte| f64::from(byte) / 255.0);
-        let mut commands = picture.begin(&mut encoder, clear);
+        let mut commands = picture.begin(&mut encoder, Some(clear));
         ready.iter().for_each(|draw| draw.encode(&mut commands));
         drop(commands);
         let (bytes, _) = picture.read(device, encoder)?;
         RgbaImage::from_raw(width, height, bytes)
             .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
+    }
+
+    /// What a draw is drawn with in these states, into a target of this size and these formats of colour and depth; its
+    /// uniform blocks go into the arena. With a register in place of the colour if one is to be shown.
+    ///
+    /// # Errors
+    /// [`GpuError::Translate`] and [`GpuError::Unsupported`].
+    pub(super) fn drawing(
+        &self,
+        draw: &PreparedDraw<'_>,
+        state: &RenderState,
+        show: Option<RegisterPicture>,
+        size: [u32; 2],
+        (format, depth): (wgpu::TextureFormat, wgpu::TextureFormat),
+        arena: &mut UniformArena,
+    ) -> Result<Drawing, GpuError> {
+        let translation = translation(self.scene, draw, &self.rendered, show)?;
+        let wireframe = self.renderer.device.has(wgpu::Features::POLYGON_MODE_LINE);
+        let fixed = fixed_state(state, draw.topology, depth, wireframe).map_err(|state| {
+            GpuError::Unsupported {
+                draw: draw.name.to_owned(),
+                state,
+            }
+        })?;
+        Ok(Drawing {
+            places: self.uniforms(draw, &translation, size, arena),
+            translation,
+            fixed,
+            format,
+        })
     }
 
     /// Puts the uniform blocks of a draw into the arena; gives their places by binding.
@@ -220,7 +319,7 @@ impl Frame<'_, '_> {
         translation: &Translation,
         size: [u32; 2],
         arena: &mut UniformArena,
-    ) -> Vec<(u32, std::ops::Range<u64>)> {
+    ) -> Vec<(u32, Range<u64>)> {
         let stages = draw.stages.each_ref().map(|stage| {
             let texture = stage
                 .texture
@@ -251,14 +350,13 @@ impl Frame<'_, '_> {
     }
 
     /// Everything that a draw needs on the device; none if it draws nothing.
-    fn prepare(
+    pub(super) fn prepare(
         &mut self,
         draw: &PreparedDraw<'_>,
-        translation: &Translation,
-        places: &[(u32, std::ops::Range<u64>)],
+        drawing: &Drawing,
         uniforms: &wgpu::Buffer,
-        depth: wgpu::TextureFormat,
     ) -> Result<Option<Ready>, GpuError> {
+        let translation = &drawing.translation;
         let device = self.renderer.device;
         let points = draw.topology == Topology::PointList;
         let count = draw.mesh.vertex_count() as u32;
@@ -266,13 +364,6 @@ impl Frame<'_, '_> {
         if count == 0 || indices.as_ref().is_some_and(|(_, count)| *count == 0) {
             return Ok(None);
         }
-        let wireframe = device.has(wgpu::Features::POLYGON_MODE_LINE);
-        let fixed = fixed_state(&draw.state, draw.topology, depth, wireframe).map_err(|state| {
-            GpuError::Unsupported {
-                draw: draw.name.to_owned(),
-                state,
-            }
-        })?;
         let inputs = &translation.reflection.inputs;
         let layout = VertexLayout::new(draw.declaration, inputs, points);
         let vertices = layout
@@ -280,9 +371,10 @@ impl Frame<'_, '_> {
             .map(|stream| self.meshes.stream(device, draw.mesh, stream))
             .collect();
         let bound = self.bound_textures(draw, translation)?;
-        let pipeline =
-            (self.renderer.pipelines).get(device, translation, layout, fixed, COLOR_FORMAT)?;
-        let uniform_entries: Vec<_> = places
+        let fixed = drawing.fixed.clone();
+        let pipelines = &mut self.renderer.pipelines;
+        let pipeline = pipelines.get(device, translation, layout, fixed, drawing.format)?;
+        let uniform_entries: Vec<_> = (drawing.places)
             .iter()
             .map(|(binding, place)| UniformArena::entry(uniforms, *binding, place))
             .collect();
@@ -304,8 +396,13 @@ impl Frame<'_, '_> {
             ],
             pipeline: pipeline.pipeline.clone(),
             vertices,
-            indices,
-            counts: if points { [4, count] } else { [count, 1] },
+            corners: match &indices {
+                _ if points => 0..4,
+                Some((_, count)) => 0..*count,
+                None => 0..count,
+            },
+            instances: if points { 0..count } else { 0..1 },
+            indices: indices.map(|(buffer, _)| buffer),
             stencil: draw.state.stencil.reference.into(),
         }))
     }
@@ -345,7 +442,24 @@ impl Frame<'_, '_> {
 }
 
 impl Ready {
-    fn encode(&self, commands: &mut wgpu::RenderPass<'_>) {
+    /// The same with one primitive only; none if there is no such primitive.
+    pub(super) fn primitive(mut self, topology: Topology, number: usize) -> Option<Self> {
+        let number = u32::try_from(number).ok()?;
+        let (part, first, count) = match topology {
+            Topology::PointList => (&mut self.instances, number, 1),
+            Topology::LineList => (&mut self.corners, number.checked_mul(2)?, 2),
+            Topology::LineStrip => (&mut self.corners, number, 2),
+            // Strips and fans are drawn as lists.
+            Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
+                (&mut self.corners, number.checked_mul(3)?, 3)
+            }
+        };
+        let end = first.checked_add(count).filter(|end| *end <= part.end)?;
+        *part = first..end;
+        Some(self)
+    }
+
+    pub(super) fn encode(&self, commands: &mut wgpu::RenderPass<'_>) {
         commands.set_pipeline(&self.pipeline);
         for (number, group) in (0..).zip(&self.groups) {
             commands.set_bind_group(number, group, &[]);
@@ -354,12 +468,13 @@ impl Ready {
             commands.set_vertex_buffer(slot, buffer.slice(..));
         }
         commands.set_stencil_reference(self.stencil);
+        let (corners, instances) = (self.corners.clone(), self.instances.clone());
         match &self.indices {
-            Some((buffer, count)) => {
+            Some(buffer) => {
                 commands.set_index_buffer(buffer.slice(..), wgpu::IndexFormat::Uint32);
-                commands.draw_indexed(0..*count, 0, 0..1);
+                commands.draw_indexed(corners, 0, instances);
             }
-            None => commands.draw(0..self.counts[0], 0..self.counts[1]),
+            None => commands.draw(corners, instances),
         }
     }
 }

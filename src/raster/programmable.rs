@@ -1,7 +1,7 @@
 //! Kernels in their places around the rasterizer: vertices from a vertex shader, pixels from a pixel shader.
 
 use super::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, Vertex};
-use crate::exec::{Environment, Lanes, Machine, Observer};
+use crate::exec::{Environment, Lanes, Machine, Observer, Trace};
 use crate::kernel::{Kernel, Slot};
 use crate::semantics;
 use glam::Vec4;
@@ -138,6 +138,15 @@ pub struct PixelProgram<'a> {
     pub picture: Option<RegisterPicture>,
 }
 
+/// The registers of one pixel while its shader runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelTrace {
+    /// The interpolated inputs that the shader reads, as it sees them.
+    pub inputs: Vec<(Slot, [f32; 4])>,
+    /// Every write.
+    pub trace: Trace,
+}
+
 /// Sees nothing.
 struct Nothing;
 
@@ -159,6 +168,33 @@ impl PixelProgram<'_> {
         Slot::input(index)
             .filter(|slot| Some(*slot) == shown || !self.kernel.read(*slot).is_empty())
     }
+
+    /// Puts the inputs into their registers.
+    fn load(&self, machine: &mut Machine<LANES>, batch: &PixelBatch) {
+        for (i, slot) in self.texcoords() {
+            *machine.register_mut(slot) = batch.texcoords[i];
+        }
+        for (i, color) in [&batch.diffuse, &batch.specular].into_iter().enumerate() {
+            if let Some(slot) = self.color(i) {
+                *machine.register_mut(slot) = clamped(color);
+            }
+        }
+    }
+
+    /// Runs the shader for a batch and records one lane.
+    pub fn trace(&self, batch: &PixelBatch, lane: usize) -> PixelTrace {
+        let mut machine = Machine::new();
+        self.load(&mut machine, batch);
+        let sets = self.texcoords().map(|(_, slot)| slot);
+        let colors = (0..2).filter_map(|i| self.color(i));
+        let inputs = (sets.chain(colors))
+            .map(|slot| (slot, machine.lane(slot, lane)))
+            .collect();
+        PixelTrace {
+            inputs,
+            trace: Trace::record(&mut machine, self.kernel, self.environment, lane),
+        }
+    }
 }
 
 impl PixelShader for PixelProgram<'_> {
@@ -176,14 +212,7 @@ impl PixelShader for PixelProgram<'_> {
                 // A register that the shader never touches is shown as zero, not as the last batch left it.
                 machine.load(picture.slot, [0.0; 4]);
             }
-            for (i, slot) in self.texcoords() {
-                *machine.register_mut(slot) = batch.texcoords[i];
-            }
-            for (i, color) in [&batch.diffuse, &batch.specular].into_iter().enumerate() {
-                if let Some(slot) = self.color(i) {
-                    *machine.register_mut(slot) = clamped(color);
-                }
-            }
+            self.load(machine, batch);
             match &self.picture {
                 None => {
                     machine.run(self.kernel, self.environment);

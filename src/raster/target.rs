@@ -144,6 +144,32 @@ impl Target {
         tile.stencil.get(pixel).copied()
     }
 
+    /// Whether a pixel lies inside a triangle, together with its neighbours to the left and right, above and below: depth
+    /// is a plane over the screen there. Where it is not, an edge passes, and which side of it a pixel is on is decided
+    /// by rounding that no two rasterizers share.
+    ///
+    /// Pixels at the border of the target are judged by the three that are nearest to the border. Edges between triangles
+    /// of one plane are none, and so are those of draws that do not write depth: such pixels count as inside. Outside of
+    /// the target, and across a target of less than 3 pixels, nothing is inside.
+    pub fn inside(&self, x: u32, y: u32) -> bool {
+        let depth = |x: u32, y: u32| self.depth(x, y).map(f64::from);
+        let flat = |depths: [Option<f64>; 3]| {
+            let [Some(before), Some(at), Some(after)] = depths else {
+                return false;
+            };
+            // Each of the three is rounded by up to 2⁻²⁵, as floats below 1 are, the middle one counts twice: 1.2e-7. The
+            // rest is room for planes that are evaluated in other places.
+            (before - 2.0 * at + after).abs() < 2e-7
+        };
+        let around = |at: u32, side: u32| {
+            let middle = at.clamp(1, side.saturating_sub(2).max(1));
+            [middle - 1, middle, middle + 1]
+        };
+        self.depth(x, y).is_some()
+            && flat(around(x, self.width).map(|x| depth(x, y)))
+            && flat(around(y, self.height).map(|y| depth(x, y)))
+    }
+
     /// The colours as a picture.
     pub fn to_image(&self) -> RgbaImage {
         let mut picture = RgbaImage::new(self.width, self.height);
@@ -198,6 +224,24 @@ mod tests {
         assert_eq!(target.depth(64, 64), Some(0.0));
         assert_eq!(target.stencil(64, 64), Some(9));
         assert_eq!(target.to_image().dimensions(), (130, 65));
+    }
+
+    /// A slope over the whole, and a step of 1/8 between columns 4 and 5.
+    #[test]
+    fn what_is_inside() {
+        let mut target = Target::new(9, 4, ColorFormat::A8R8G8B8).unwrap();
+        for (at, depth) in target.tiles[0].depth.iter_mut().enumerate() {
+            let (x, y) = (at as u32 % TILE, at as u32 / TILE);
+            let step = if x > 4 { 0.125 } else { 0.0 };
+            *depth = 0.25 + x as f32 / 64.0 + y as f32 / 128.0 + step;
+        }
+        for y in 0..4 {
+            let inside: Vec<u32> = (0..9).filter(|x| target.inside(*x, y)).collect();
+            assert_eq!(inside, [0, 1, 2, 3, 6, 7, 8]);
+        }
+        assert!(!target.inside(9, 0) && !target.inside(0, 4));
+        let narrow = Target::new(2, 4, ColorFormat::A8R8G8B8).unwrap();
+        assert!(!narrow.inside(0, 1));
     }
 
     #[test]

@@ -6,13 +6,14 @@
 //!
 //! Files, in the order of the data: `section` and `error` (tables key by key, problems with their places), `resolve` and
 //! `files` (bytes), `load` (the whole), `transform`, `mesh`, `texture`, `shader`, `constants`, `state`, `draw`, `target`
-//! (its parts), `prepare` (passes), `render`; `generate` makes pictures by formula.
+//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `history` (of a pixel); `generate` makes pictures by formula.
 
 mod constants;
 pub(crate) mod draw;
 pub(crate) mod error;
 pub(crate) mod files;
 pub mod generate;
+mod history;
 pub(crate) mod include;
 pub(crate) mod load;
 mod mesh;
@@ -39,10 +40,13 @@ use crate::texture::Texture;
 pub use draw::Declaration;
 pub use error::{SceneError, rules};
 pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
+pub use history::PixelEvent;
 pub use include::MAX_INCLUDES;
 pub use load::{MAX_DRAWS, MAX_ENTRIES};
 pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
-pub use render::{Progress, RenderError, RenderOptions, Show, TargetPicture};
+pub use render::{
+    DrawnTarget, Progress, RenderError, RenderOptions, Rendering, Show, TargetPicture,
+};
 #[cfg(feature = "gpu")]
 pub(crate) use rendered::{Rendered, clear_color};
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};

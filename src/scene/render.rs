@@ -7,10 +7,8 @@ use image::RgbaImage;
 use super::Scene;
 use super::prepare::{Output, Pass, PreparedDraw};
 use super::rendered::{Rendered, clear_color};
-use crate::exec::{Environment, Stage};
 use crate::raster::{
-    ColorFormat, DrawCall, DrawError, PixelProgram, RegisterPicture, Target, TargetTooLarge,
-    Viewport, draw, shade_vertices,
+    ColorFormat, DrawError, PixelProgram, RegisterPicture, Target, TargetTooLarge, draw,
 };
 use crate::texture::TextureError;
 
@@ -33,7 +31,7 @@ pub struct Show {
     pub picture: RegisterPicture,
 }
 
-/// One face of a render target, as it was drawn.
+/// One face of a render target, as a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TargetPicture {
     /// The target by its number in the scene.
@@ -42,6 +40,16 @@ pub struct TargetPicture {
     pub face: usize,
     /// What it holds.
     pub picture: RgbaImage,
+}
+
+/// One face of a render target, as it was drawn on the CPU.
+pub struct DrawnTarget {
+    /// The target by its number in the scene.
+    pub target: usize,
+    /// 0, or 0 to 5 in a cube: +X, −X, +Y, −Y, +Z, −Z.
+    pub face: usize,
+    /// Its buffers.
+    pub drawn: Target,
 }
 
 /// How far the rendering of a scene is.
@@ -117,19 +125,18 @@ impl Scene {
         options: &RenderOptions,
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<Target, RenderError> {
-        self.render_all(options, progress)
-            .map(|(picture, _)| picture)
+        Ok(self.rendering(options, progress)?.into_picture())
     }
 
-    /// [`Scene::render`], and what the render targets held, in the order in which they were drawn.
+    /// Renders like [`Self::render`], and keeps with the picture what is needed to ask how a pixel of it came to be.
     ///
     /// # Errors
-    /// As for [`Scene::render`].
-    pub fn render_all(
+    /// As [`Self::render`].
+    pub fn rendering(
         &self,
         options: &RenderOptions,
         progress: &dyn Fn(Progress<'_>),
-    ) -> Result<(Target, Vec<TargetPicture>), RenderError> {
+    ) -> Result<Rendering<'_>, RenderError> {
         let [width, height] = options.size.unwrap_or(self.size);
         let picture = Target::new(width, height, ColorFormat::A8R8G8B8);
         let mut picture = picture.map_err(RenderError::Size)?;
@@ -150,20 +157,25 @@ impl Scene {
             match pass.output {
                 Output::Picture => renderer.pass(pass, shown, &mut picture)?,
                 Output::Target { target, face } => {
-                    let picture = renderer.target(pass, target, face)?;
-                    targets.push(TargetPicture {
+                    let drawn = renderer.target(pass, target, face)?;
+                    targets.push(DrawnTarget {
                         target,
                         face,
-                        picture,
+                        drawn,
                     });
                 }
             }
         }
-        Ok((picture, targets))
+        Ok(Rendering {
+            scene: self,
+            picture,
+            targets,
+            rendered: renderer.rendered,
+        })
     }
 
     /// Where in the picture's list the draw stands whose register is shown.
-    fn shown_draw(&self, show: &Show) -> Result<usize, RenderError> {
+    pub(crate) fn shown_draw(&self, show: &Show) -> Result<usize, RenderError> {
         let name = |number: &usize| self.draws.get(*number).map(|draw| draw.name.as_str());
         let found = match &show.draw {
             Some(wanted) => (self.picture.iter()).rposition(|number| name(number) == Some(wanted)),
@@ -178,29 +190,78 @@ impl Scene {
     }
 }
 
-struct Renderer<'a> {
+/// A scene that was rendered on the CPU: its picture, and the textures that its render targets became.
+pub struct Rendering<'a> {
+    scene: &'a Scene,
+    picture: Target,
+    targets: Vec<DrawnTarget>,
+    rendered: Rendered<'a>,
+}
+
+impl<'a> Rendering<'a> {
+    /// The scene.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// The picture.
+    pub fn picture(&self) -> &Target {
+        &self.picture
+    }
+
+    /// The picture alone.
+    pub fn into_picture(self) -> Target {
+        self.picture
+    }
+
+    /// The faces of the render targets, in the order in which they were drawn.
+    pub fn targets(&self) -> &[DrawnTarget] {
+        &self.targets
+    }
+
+    /// The same as pictures, for [`Renderer::frame`](crate::gpu::Renderer::frame).
+    pub fn target_pictures(&self) -> Vec<TargetPicture> {
+        let picture = |target: &DrawnTarget| TargetPicture {
+            target: target.target,
+            face: target.face,
+            picture: target.drawn.to_image(),
+        };
+        self.targets.iter().map(picture).collect()
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.picture.width(), self.picture.height()]
+    }
+
+    /// The textures of the scene, render targets included.
+    pub(crate) fn rendered(&self) -> &Rendered<'a> {
+        &self.rendered
+    }
+}
+
+struct Renderer<'a, 'p> {
     scene: &'a Scene,
     rendered: Rendered<'a>,
     done: usize,
     total: usize,
-    progress: &'a dyn Fn(Progress<'_>),
+    progress: &'p dyn Fn(Progress<'_>),
 }
 
-impl Renderer<'_> {
+impl Renderer<'_, '_> {
     /// Renders a face of a target; with the last one it becomes a texture.
     fn target(
         &mut self,
         pass: &Pass<'_>,
         number: usize,
         face: usize,
-    ) -> Result<RgbaImage, RenderError> {
+    ) -> Result<Target, RenderError> {
         let [width, height] = pass.size;
         let target = Target::new(width, height, ColorFormat::A8R8G8B8);
         let mut target = target.map_err(RenderError::Size)?;
         self.pass(pass, None, &mut target)?;
-        let picture = target.to_image();
-        self.rendered.take_face(number, face, &picture)?;
-        Ok(picture)
+        self.rendered.take_face(number, face, &target.to_image())?;
+        Ok(target)
     }
 
     fn pass(
@@ -239,46 +300,17 @@ impl Renderer<'_> {
         picture: Option<RegisterPicture>,
         target: &mut Target,
     ) -> Result<(), RenderError> {
-        let for_vertices = Environment {
-            constants: prepared.vertex_constants.clone(),
-            ..Environment::default()
-        };
-        let count = prepared.mesh.vertex_count();
-        let vertices = shade_vertices(
-            &prepared.vertex.kernel,
-            &for_vertices,
-            count,
-            |vertex, register| prepared.input(vertex, register),
-        );
-        let for_pixels = Environment {
-            constants: prepared.pixel_constants.clone(),
-            stages: std::array::from_fn(|i| {
-                let stage = &prepared.stages[i];
-                Stage {
-                    texture: stage
-                        .texture
-                        .and_then(|number| self.rendered.texture(number)),
-                    sampler: stage.sampler,
-                    bump: stage.bump,
-                }
-            }),
-        };
+        let shaded = self.rendered.shade(prepared);
         let mut state = prepared.state.clone();
         if picture.is_some() {
             state.blend.enable = false;
             state.fog.enable = false;
             state.alpha_test.enable = false;
         }
-        let call = DrawCall {
-            viewport: Viewport::full(target.width(), target.height()),
-            state: &state,
-            topology: prepared.topology,
-            vertices: &vertices,
-            indices: prepared.indices(),
-        };
+        let call = shaded.call(prepared, &state, [target.width(), target.height()]);
         let shader = PixelProgram {
             kernel: &prepared.pixel.kernel,
-            environment: &for_pixels,
+            environment: &shaded.environment,
             picture,
         };
         let drawn = draw(target, &call, &shader);

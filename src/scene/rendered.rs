@@ -2,8 +2,11 @@
 
 use image::RgbaImage;
 
+use super::prepare::PreparedDraw;
 use super::render::RenderError;
 use super::{Scene, TextureSource};
+use crate::exec::{Environment, Stage};
+use crate::raster::{DrawCall, RenderState, Vertex, Viewport, shade_vertices};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 
@@ -80,12 +83,63 @@ impl<'a> Rendered<'a> {
         Ok(())
     }
 
+    /// Runs the vertex shader of a draw, and puts together what its pixel shader needs.
+    pub(crate) fn shade(&self, draw: &PreparedDraw<'_>) -> ShadedDraw<'_> {
+        let for_vertices = Environment {
+            constants: draw.vertex_constants.clone(),
+            ..Environment::default()
+        };
+        let vertices = shade_vertices(
+            &draw.vertex.kernel,
+            &for_vertices,
+            draw.mesh.vertex_count(),
+            |vertex, register| draw.input(vertex, register),
+        );
+        let environment = Environment {
+            constants: draw.pixel_constants.clone(),
+            stages: draw.stages.each_ref().map(|stage| Stage {
+                texture: stage.texture.and_then(|number| self.texture(number)),
+                sampler: stage.sampler,
+                bump: stage.bump,
+            }),
+        };
+        ShadedDraw {
+            vertices,
+            environment,
+        }
+    }
+
     /// A texture of the scene by its number; none if its render target is not done yet.
     pub(crate) fn texture(&self, number: usize) -> Option<&Texture> {
         match &self.scene.textures.get(number)?.source {
             TextureSource::Loaded(texture) => Some(texture),
             TextureSource::Target(target) => self.targets.get(*target)?.as_ref(),
             TextureSource::Irradiance { .. } => self.derived.get(number)?.as_ref(),
+        }
+    }
+}
+
+/// A draw whose vertex shader has run, and what its pixel shader runs with.
+pub(crate) struct ShadedDraw<'a> {
+    vertices: Vec<Vertex>,
+    /// The constants, textures and stage states of the pixel shader.
+    pub(crate) environment: Environment<'a>,
+}
+
+impl ShadedDraw<'_> {
+    /// The draw call onto a target of this size.
+    pub(crate) fn call<'c>(
+        &'c self,
+        draw: &'c PreparedDraw<'_>,
+        state: &'c RenderState,
+        [width, height]: [u32; 2],
+    ) -> DrawCall<'c> {
+        DrawCall {
+            viewport: Viewport::full(width, height),
+            state,
+            topology: draw.topology,
+            vertices: &self.vertices,
+            indices: draw.indices(),
         }
     }
 }

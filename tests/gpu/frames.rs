@@ -63,8 +63,10 @@ fn on_cpu(name: &str, mips: Mips<'_>, size: [u32; 2]) -> (Target, Vec<TargetPict
         size: Some(size),
         show: None,
     };
-    let drawn = scene(name, mips).render_all(&options, &|_| ());
-    drawn.expect("the CPU renders")
+    let scene = scene(name, mips);
+    let drawn = (scene.rendering(&options, &|_| ())).expect("the CPU renders");
+    let targets = drawn.target_pictures();
+    (drawn.into_picture(), targets)
 }
 
 /// Draws each picture from what the CPU's render targets hold: one step of 1/255 in a target and one in the picture itself
@@ -76,58 +78,14 @@ fn on_gpu(
     size: [u32; 2],
     targets: &[TargetPicture],
 ) -> (RgbaImage, Vec<TargetPicture>) {
-    let mut renderer = Renderer::new(device);
-    let drawn = renderer.render_all(&scene(name, mips), Some(size), targets, &|_| ());
-    drawn.expect("the GPU renders")
-}
-
-/// Whether a pixel lies inside a triangle, with its neighbours: depth is a plane there, on the screen. Where it is not,
-/// an edge of a triangle passes, and which side a pixel is on may differ.
-fn inside(target: &Target, x: u32, y: u32) -> bool {
-    let depth = |x: u32, y: u32| target.depth(x, y).map(f64::from);
-    let flat = |before: Option<f64>, at: Option<f64>, after: Option<f64>| {
-        let (Some(before), Some(at), Some(after)) = (before, at, after) else {
-            return false;
-        };
-        // Rounding of a float of up to 1 is 2⁻²⁵, three times.
-        (before - 2.0 * at + after).abs() < 2e-7
+    let options = RenderOptions {
+        size: Some(size),
+        show: None,
     };
-    let at = depth(x, y);
-    flat(depth(x.wrapping_sub(1), y), at, depth(x + 1, y))
-        && flat(depth(x, y.wrapping_sub(1)), at, depth(x, y + 1))
-}
-
-/// What was found in the pixels inside triangles.
-#[derive(Debug, Default)]
-pub(crate) struct Found {
-    pub(crate) inside: usize,
-    /// Pixels by their greatest difference, up to 255.
-    counts: std::collections::BTreeMap<u8, usize>,
-    pub(crate) edges: usize,
-    pub(crate) edges_above_1: usize,
-}
-
-impl Found {
-    pub(crate) fn max(&self) -> u8 {
-        self.counts.keys().next_back().copied().unwrap_or(0)
-    }
-}
-
-pub(crate) fn differences(cpu: &Target, gpu: &RgbaImage) -> Found {
-    let mut found = Found::default();
-    for (x, y, pixel) in gpu.enumerate_pixels() {
-        let color = cpu.color(x, y).expect("the pictures have one size");
-        let pairs = color.into_iter().zip(pixel.0);
-        let step = pairs.map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0);
-        if inside(cpu, x, y) {
-            found.inside += 1;
-            *found.counts.entry(step).or_default() += 1;
-        } else {
-            found.edges += 1;
-            found.edges_above_1 += usize::from(step > 1);
-        }
-    }
-    found
+    let (scene, mut renderer) = (scene(name, mips), Renderer::new(device));
+    let drawn = renderer.frame(&scene, &options, targets, &|_| ());
+    let drawn = drawn.expect("the GPU renders");
+    (drawn.picture().clone(), drawn.targets().to_vec())
 }
 
 /// Without mips, as large as the scene says.
@@ -151,13 +109,16 @@ fn compare_without_mips(name: &str) {
         );
         assert!(differences.above(1) * 10_000 <= differences.pixels());
     }
-    let found = differences(&cpu, &gpu);
-    println!("{name}: {found:?}");
+    let [inside, edges] =
+        Differences::inside_and_on_edges(&cpu, &gpu).expect("the pictures have one size");
+    for (place, found) in [("inside", &inside), ("on edges", &edges)] {
+        println!("{name}, {place}: {:?}", found.counts().collect::<Vec<_>>());
+    }
     // Edges are lines in a picture: were they most of it, nothing would be tested.
-    assert!(found.inside > found.edges * 2, "{found:?}");
-    assert!(found.max() <= 1, "{found:?}");
-    let all = found.inside + found.edges;
-    assert!(found.edges_above_1 * 10_000 <= all, "{found:?}");
+    assert!(inside.pixels() > edges.pixels() * 2);
+    assert!(inside.max() <= 1, "{:?}", inside.worst);
+    let all = inside.pixels() + edges.pixels();
+    assert!(edges.above(1) * 10_000 <= all, "{:?}", edges.worst);
 }
 
 #[test]
@@ -201,7 +162,7 @@ fn with_mips() {
             .collect();
         let mut beyond = std::collections::BTreeMap::<u8, usize>::new();
         for (x, y, pixel) in gpu.enumerate_pixels() {
-            if !inside(&drawn[0], x, y) {
+            if !drawn[0].inside(x, y) {
                 continue;
             }
             let colors = drawn.iter().map(|target| target.color(x, y));

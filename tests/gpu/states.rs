@@ -6,11 +6,9 @@
 use std::collections::BTreeMap;
 
 use image::RgbaImage;
-use texcrd::gpu::Renderer;
+use texcrd::gpu::{Differences, Renderer};
 use texcrd::raster::Target;
 use texcrd::scene::{LoadOptions, RenderOptions, Scene};
-
-use crate::frames::differences;
 
 /// A torus in a sphere before a chequered wall. `@` stands for the states of the sphere, the last draw; `%` for its
 /// topology and the like.
@@ -318,16 +316,20 @@ fn every_state() {
     for (state, draw) in [("", "")].into_iter().chain(VARIATIONS) {
         let scene = scene(state, draw);
         let cpu = on_cpu(&scene);
-        let gpu = match renderer.render(&scene, None, &|_| ()) {
+        let gpu = match renderer.render(&scene, &RenderOptions::default(), &|_| ()) {
             Ok(picture) => picture,
             Err(error) => panic!("{state} {draw}: {error}"),
         };
-        let found = differences(&cpu, &gpu);
+        let found = Differences::inside_and_on_edges(&cpu, &gpu);
+        let [inside, edges] = found.expect("the pictures have one size");
         // Blending reads a colour that was rounded before, and rounds again. An eighth of the edges may be taken for the
         // other side: positions differ in their last bit.
         let most = 1 + u8::from(state.contains("alpha_blend"));
-        if found.max() > most || found.edges_above_1 * 8 > found.edges {
-            failed.push(format!("{state} {draw}: {found:?}"));
+        if inside.max() > most || edges.above(1) * 8 > edges.pixels() {
+            let (inside, edges) = (inside.worst, edges.worst);
+            failed.push(format!(
+                "{state} {draw}: inside {inside:?}, on edges {edges:?}"
+            ));
         }
         if cpu.to_image() == plain && !(state.is_empty() && draw.is_empty()) {
             failed.push(format!("{state} {draw}: changes nothing"));

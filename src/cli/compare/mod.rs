@@ -1,0 +1,245 @@
+//! `compare`: a scene on both paths.
+
+mod json;
+mod picture;
+mod text;
+
+use super::{Failure, Format, Outcome, dialect, files, print, print_json, scene};
+use image::RgbaImage;
+use std::path::PathBuf;
+use texcrd::diagnostic::Span;
+use texcrd::gpu::{
+    Differences, FragmentComparison, GpuError, LineComparison, PixelComparison, Renderer,
+    compare_pixel,
+};
+use texcrd::kernel::Slot;
+use texcrd::policy::Dialect;
+use texcrd::program::Program;
+use texcrd::raster::Target;
+use texcrd::scene::{PreparedDraw, RenderOptions, Scene};
+
+/// Renders a scene on the CPU and on the GPU and says where they differ, and where a pixel's registers part.
+///
+/// Differences are in steps of 1/255, of pixels inside triangles and of those on edges apart: which triangle covers a
+/// pixel on an edge is a matter of rounding, and no two rasterizers agree on all. The exit status is 1 if a pixel inside
+/// differs by more than the tolerance, in the picture or in a render target. What samples render targets reads those of the
+/// CPU on both paths.
+///
+/// Of the worst pixel, or another one, the registers are shown on both sides, and the first instruction whose registers
+/// part: the pixel shader is cut after each of its instructions and run again on the GPU.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  texcrd compare asm/stained_glass/figure5.toml --size 320x240
+  texcrd compare scene.toml --tolerance 8 -o differences.png
+  texcrd compare scene.toml --pixel 120,84 --all-lines
+  texcrd compare scene.toml --adapter llvmpipe --format json")]
+pub(super) struct Arguments {
+    /// The scene file.
+    #[arg(value_name = "SCENE")]
+    scene: String,
+    /// The greatest difference of a channel that is accepted, 0 to 255.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    tolerance: u8,
+    /// Do not accept greater differences on edges of triangles either.
+    #[arg(long)]
+    strict: bool,
+    /// Where a picture of the differences goes: over the dark picture, yellow to red inside triangles, blue on edges.
+    #[arg(short, long, value_name = "DIFF.png", value_parser = scene::picture)]
+    output: Option<PathBuf>,
+    /// Width and height in pixels instead of those of the scene.
+    #[arg(long, value_name = "WxH", value_parser = scene::size)]
+    size: Option<[u32; 2]>,
+    /// The pixel whose registers are compared, column and row from the upper left one, 0,0; without it the worst one
+    /// inside a triangle, or else the worst.
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pixel: Option<[u32; 2]>,
+    /// Registers part if they differ by more than this times the larger of both, or this if both are below 1. The
+    /// default is 2^-16: a little above what rounding in interpolation and filtering is worth.
+    #[arg(long, value_name = "T", default_value_t = 1.0 / 65536.0, value_parser = part_tolerance)]
+    part_tolerance: f32,
+    /// List the difference of every register that an instruction writes, line by line.
+    #[arg(long)]
+    all_lines: bool,
+    /// The GPU: its number in `texcrd adapters`, or a part of its name. Without it the first one.
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// How results are written.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+    /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
+    #[arg(long, value_parser = dialect, default_value = "d3d8")]
+    dialect: Dialect,
+}
+
+/// The channels of a picture, in order.
+const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];
+
+/// The value parser of `--pixel`.
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.trim().parse::<u32>().ok();
+    let parsed = text.split_once(',').map(|(x, y)| (number(x), number(y)));
+    match parsed {
+        Some((Some(x), Some(y))) => Ok([x, y]),
+        _ => Err(format!("`{text}` is no pixel: write 120,84")),
+    }
+}
+
+/// The value parser of `--part-tolerance`.
+fn part_tolerance(text: &str) -> Result<f32, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|n: &f32| n.is_finite() && *n >= 0.0);
+    number.ok_or_else(|| format!("`{text}` is no tolerance: write a number of 0 or more"))
+}
+
+/// What was found out.
+struct Findings<'a> {
+    arguments: &'a Arguments,
+    scene: &'a Scene,
+    size: [u32; 2],
+    adapter: String,
+    /// All pixels, those inside triangles, those on edges.
+    all: Differences,
+    inside: Differences,
+    edges: Differences,
+    targets: Vec<TargetFace>,
+    pixel: Option<Pixel>,
+}
+
+/// A face of a render target.
+struct TargetFace {
+    target: String,
+    face: usize,
+    inside: Differences,
+    edges: Differences,
+}
+
+/// The pixel that was looked into.
+struct Pixel {
+    inside: bool,
+    cpu: [u8; 4],
+    gpu: [u8; 4],
+    /// What the registers are, or why they could not be had.
+    comparison: Result<PixelComparison, GpuError>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    if let Some(path) = &arguments.output {
+        files::can_be_written(path)?;
+    }
+    let loaded = scene::load(&arguments.scene, arguments.dialect)?;
+    let size = arguments.size.unwrap_or(loaded.size());
+    if let Some([x, y]) = (arguments.pixel).filter(|[x, y]| *x >= size[0] || *y >= size[1]) {
+        let [width, height] = size;
+        return Err(Failure::Io(format!(
+            "--pixel: the picture is {width}x{height}, so that {x},{y} lies outside"
+        )));
+    }
+    let device = scene::device(arguments.adapter.as_deref())?;
+    let options = RenderOptions {
+        size: arguments.size,
+        show: None,
+    };
+    let cpu = scene::draw_on_cpu(&loaded, &arguments.scene, &options)?;
+    let mut renderer = Renderer::new(&device);
+    // The same render targets for both, so that a difference in one is told once, where it arises.
+    let given = cpu.target_pictures();
+    let mut gpu = scene::draw_on_gpu(&mut renderer, &loaded, &arguments.scene, &options, &given)?;
+    let unequal = || Failure::Input("the two pictures are not of one size".into());
+    let image = cpu.picture().to_image();
+    let all = Differences::between(&image, gpu.picture()).ok_or_else(unequal)?;
+    let [inside, edges] =
+        Differences::inside_and_on_edges(cpu.picture(), gpu.picture()).ok_or_else(unequal)?;
+    let targets = (cpu.targets().iter().zip(gpu.targets()))
+        .filter_map(|(on_cpu, on_gpu)| {
+            let found = Differences::inside_and_on_edges(&on_cpu.drawn, &on_gpu.picture)?;
+            let [inside, edges] = found;
+            Some(TargetFace {
+                target: loaded.target(on_cpu.target)?.name.to_string(),
+                face: on_cpu.face,
+                inside,
+                edges,
+            })
+        })
+        .collect();
+    let worst = inside.worst.or(all.worst).map(|worst| [worst.x, worst.y]);
+    let pixel = (arguments.pixel.or(worst)).map(|[x, y]| Pixel {
+        inside: cpu.picture().inside(x, y),
+        cpu: image.get_pixel(x, y).0,
+        gpu: gpu.picture().get_pixel(x, y).0,
+        comparison: compare_pixel(&cpu, &mut gpu, [x, y]),
+    });
+    let findings = Findings {
+        arguments,
+        scene: &loaded,
+        size,
+        adapter: device.adapter().to_string(),
+        all,
+        inside,
+        edges,
+        targets,
+        pixel,
+    };
+    match arguments.format {
+        Format::Text => print(&text::report(&findings))?,
+        Format::Json => print_json(&json::report(&findings))?,
+    }
+    if let Some(path) = &arguments.output {
+        scene::write_png(path, &picture::differences(cpu.picture(), gpu.picture()))?;
+    }
+    match findings.passed() {
+        true => Ok(()),
+        false => Err(Failure::Rejected),
+    }
+}
+
+impl Findings<'_> {
+    /// How many pixels of the picture, and of render targets, differ by more than is accepted.
+    fn above(&self) -> [u64; 2] {
+        let Arguments {
+            tolerance, strict, ..
+        } = *self.arguments;
+        let above = |inside: &Differences, edges: &Differences| {
+            inside.above(tolerance) + if strict { edges.above(tolerance) } else { 0 }
+        };
+        let targets = self.targets.iter();
+        [
+            above(&self.inside, &self.edges),
+            targets.map(|face| above(&face.inside, &face.edges)).sum(),
+        ]
+    }
+
+    fn passed(&self) -> bool {
+        self.above() == [0, 0]
+    }
+
+    /// The draws of the picture.
+    fn draws(&self) -> Vec<PreparedDraw<'_>> {
+        let pass = self.scene.passes(self.size).pop();
+        pass.map(|pass| pass.draws).unwrap_or_default()
+    }
+
+    /// The file and the line of a place in a listing.
+    fn place(&self, span: Span) -> (&str, usize) {
+        let found = self.scene.sources().locate(span);
+        found.map_or(("", 0), |at| (at.file, at.line))
+    }
+
+    /// An instruction as it stands in the listing.
+    fn instruction(&self, line: &LineComparison) -> String {
+        let text = self.scene.sources().text(line.span);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        words.join(" ")
+    }
+}
+
+/// What a register is called. Up to `ps.1.3` `t0` is a texture register; its coordinates are `oT0`, as `--show` has it.
+fn register_name(program: &Program, slot: Slot) -> String {
+    let set = (0..8).find(|set| Slot::texcoord(*set) == Some(slot));
+    match set {
+        Some(set) if program.version != texcrd::isa::Version::Ps14 => format!("oT{set}"),
+        _ => slot.name(program.version.kind()),
+    }
+}
