@@ -343,12 +343,30 @@ fn paired(
             writes,
         });
     }
+    settle_kills(&mut lines, registers.killed);
     FragmentComparison {
         event: *event,
         covered: true,
         inputs,
         lines,
         killed: [event.fate == Fate::Killed, registers.killed],
+    }
+}
+
+/// Makes what the lines say of the device agree with what it did: whether a component is negative may hang by a thread.
+fn settle_kills(lines: &mut [LineComparison], killed: bool) {
+    let told = lines
+        .iter()
+        .any(|line| line.kills.is_some_and(|[_, gpu]| gpu));
+    let mut kills = lines.iter_mut().filter_map(|line| line.kills.as_mut());
+    match (told, killed) {
+        (true, false) => kills.for_each(|[_, gpu]| *gpu = false),
+        (false, true) => {
+            if let Some([_, gpu]) = kills.next_back() {
+                *gpu = true;
+            }
+        }
+        _ => {}
     }
 }
 

@@ -6,6 +6,7 @@
 mod arithmetic;
 mod cases;
 mod frames;
+mod registers;
 mod states;
 #[path = "../conformance/suite.rs"]
 mod suite;

@@ -1,5 +1,6 @@
 mod broken;
 mod documented;
+mod history;
 mod meanings;
 mod pixels;
 mod refused;

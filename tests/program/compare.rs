@@ -1,0 +1,252 @@
+//! `compare`, `adapters`, `run --on gpu`: what needs a GPU, or a software adapter.
+
+use super::{Ran, folder, texcrd};
+use serde_json::Value;
+use std::fs;
+
+/// Whether there are to be tests with an adapter. Without one the program fails, and says what to install.
+fn gpu() -> bool {
+    let off = std::env::var("TEXCRD_GPU").is_ok_and(|value| value == "off");
+    if off {
+        eprintln!("SKIPPED: TEXCRD_GPU=off");
+    }
+    !off
+}
+
+/// Two rectangles of one size at depths 2⁻¹⁰ and 2⁻¹⁰ + 2⁻¹⁷, red and blue; the second is moved nearer by as many steps as
+/// are given. A step is 1/65535 of the depth range on the CPU, so that two bring it to the front. On a GPU with a depth
+/// buffer of floats it is 256 times the last place of that depth, 2⁻²⁵, as is documented, and red stays in front.
+fn biased(test: &str, steps: u32) -> String {
+    let draw = |color: &str, z: &str, more: &str| {
+        format!(
+            "[[draw]]\nname = \"{color}\"\nmesh = \"all\"\n\
+             vs_text = \"vs.1.1\\nadd oPos, v0, c0\\nmov oT0, v7\\n\"\n\
+             ps_text = \"ps.1.1\\ntexcoord t0\\nmov r0, {color}\\n\"\nvs_constants.c0 = [0, 0, {z}, 0]\n\
+             ps_constants = {{ c0 = [1, 0, 0, 1], c1 = [0, 0, 1, 1] }}\n{more}\n"
+        )
+    };
+    let text = format!(
+        "size = [8, 8]\n[meshes.all]\n\
+         positions = [[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]\nindices = [0, 1, 2, 0, 2, 3]\n{}{}",
+        draw("c0", "0.0009765625", ""),
+        draw(
+            "c1",
+            "0.00098419189453125",
+            &format!("state = {{ z_bias = {steps} }}")
+        ),
+    );
+    let path = folder(test).join("scene.toml");
+    fs::write(&path, text).expect("the file can be written");
+    path.to_str().expect("a readable path").to_string()
+}
+
+/// Runs and reads what it prints.
+fn json(arguments: &[&str]) -> (i32, Value) {
+    let Ran { status, out, err } = texcrd(arguments);
+    match serde_json::from_str(&out) {
+        Ok(value) => (status, value),
+        Err(error) => panic!("{error}\n{out}\n{err}"),
+    }
+}
+
+#[test]
+fn equal_pictures() {
+    if !gpu() {
+        return;
+    }
+    let scene = biased("compare_equal", 0);
+    let ran = texcrd(&["compare", &scene, "--tolerance", "0"]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    for part in [
+        "8x8",
+        "inside    on edges",
+        "no pixel inside triangles differs by more than 0",
+    ] {
+        assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
+    }
+    assert!(!ran.out.contains("worst inside"), "{}", ran.out);
+    let (status, report) = json(&["compare", &scene, "--format", "json"]);
+    assert_eq!(
+        (status, &report["passed"], &report["max"]),
+        (0, &true.into(), &0.into())
+    );
+    assert_eq!(report["size"], serde_json::json!([8, 8]));
+    assert_eq!(report["pixel"], Value::Null);
+    assert_eq!(report["inside"]["pixels"], 64);
+    // A pixel that is asked for is shown all the same: below the diagonal both draws lie with their second triangle.
+    let ran = texcrd(&["compare", &scene, "--pixel", "2,5", "--all-lines"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    for part in [
+        "pixel 2,5, inside: CPU 255 0 0 255, GPU 255 0 0 255",
+        "`c0`, primitive 1: 255 0 0 255",
+        "`c1`, primitive 1: fails the alpha, depth or stencil test",
+        "No instruction's registers part",
+        "2     texcoord t0",
+        "3     mov r0, c0",
+    ] {
+        assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
+    }
+}
+
+/// What differs is said to come after the shader.
+#[test]
+fn different_pictures() {
+    if !gpu() {
+        return;
+    }
+    let scene = biased("compare_different", 2);
+    let picture = scene.replace("scene.toml", "differences.png");
+    let (status, report) = json(&[
+        "compare", &scene, "--pixel", "2,5", "-o", &picture, "--format", "json",
+    ]);
+    assert_eq!(status, 1, "{report}");
+    let expected = [
+        ("/passed", Value::from(false)),
+        ("/max", 255.into()),
+        ("/above_tolerance", 64.into()),
+        ("/inside/above_tolerance", 64.into()),
+        ("/on_edges/pixels", 0.into()),
+        ("/channels/red/max", 255.into()),
+        ("/channels/green/max", 0.into()),
+        ("/histogram/0/difference", 255.into()),
+        ("/histogram/0/pixels", 64.into()),
+        ("/worst/cpu/2", 255.into()),
+        ("/worst/gpu/0", 255.into()),
+        ("/pixel/inside", true.into()),
+        ("/pixel/covered_by/0/draw", "c0".into()),
+        ("/pixel/covered_by/1/fate", "written".into()),
+        ("/pixel/compared/0/draw", "c1".into()),
+        ("/pixel/compared/0/covered_on_gpu", true.into()),
+        ("/pixel/compared/0/parting", Value::Null),
+        ("/pixel/compared/0/explanation", Value::Null),
+        ("/pixel/compared/0/lines/1/text", "mov r0, c1".into()),
+        ("/pixel/compared/0/lines/1/line", 3.into()),
+        ("/pixel/compared/0/lines/1/writes/0/register", "r0".into()),
+        (
+            "/pixel/compared/0/lines/1/writes/0/gpu",
+            serde_json::json!([0.0, 0.0, 1.0, 1.0]),
+        ),
+    ];
+    for (place, value) in expected {
+        assert_eq!(report.pointer(place), Some(&value), "{place} in {report}");
+    }
+    // The picture is there, whole, and nothing else: red, as all differences are great ones.
+    let image = image::open(&picture).expect("a picture").to_rgba8();
+    assert_eq!(
+        (image.dimensions(), image.get_pixel(4, 4).0),
+        ((8, 8), [255, 0, 0, 255])
+    );
+    let folder = std::path::Path::new(&scene).parent().expect("a folder");
+    let files = fs::read_dir(folder).expect("it can be read").count();
+    assert_eq!(files, 2, "a part is left in {folder:?}");
+    let ran = texcrd(&["compare", &scene]);
+    assert_eq!(ran.status, 1);
+    for part in [
+        "64 pixels inside triangles differ by more than 1",
+        "after the shader",
+        "worst inside at 0,0",
+    ] {
+        assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
+    }
+    assert_eq!(texcrd(&["compare", &scene, "--tolerance", "255"]).status, 0);
+}
+
+#[test]
+fn what_compare_refuses() {
+    let scene = biased("compare_refused", 0);
+    let picture = scene.replace("scene.toml", "differences.png");
+    // Before any drawing, and so without an adapter too.
+    for (arguments, status, message) in [
+        (vec!["no/such.toml"], 2, "no/such.toml"),
+        (vec![&scene, "--tolerance", "256"], 2, "--tolerance"),
+        (vec![&scene, "--pixel", "8,0"], 2, "outside"),
+        (vec![&scene, "--pixel", "8"], 2, "--pixel"),
+        (vec![&scene, "--part-tolerance=-1"], 2, "--part-tolerance"),
+        (vec![&scene, "-o", "no/such/folder/d.png"], 2, "no folder"),
+        (vec![&scene, "-o", "differences.jpg"], 2, "PNG"),
+        (vec![&scene, "--adapter", "no such adapter"], 2, ""),
+    ] {
+        let mut all = vec!["compare"];
+        all.extend(arguments);
+        let ran = texcrd(&all);
+        assert_eq!(
+            (ran.status, ran.out.as_str()),
+            (status, ""),
+            "{all:?}: {}",
+            ran.err
+        );
+        assert!(ran.err.contains(message), "{all:?}: {}", ran.err);
+    }
+    fs::write(&scene, "size = [8, 8]\n[[draw]]\nmesh = \"none\"\n")
+        .expect("the file can be written");
+    let ran = texcrd(&["compare", &scene, "-o", &picture]);
+    assert_eq!((ran.status, ran.out.as_str()), (1, ""));
+    assert!(ran.err.contains("scene.toml:3"), "{}", ran.err);
+    assert!(!std::path::Path::new(&picture).exists());
+}
+
+#[test]
+fn the_adapters() {
+    if !gpu() {
+        return;
+    }
+    let (status, list) = json(&["adapters", "--format", "json"]);
+    assert_eq!(status, 0);
+    let list = list.as_array().expect("a list").clone();
+    let ran = texcrd(&["adapters"]);
+    assert_eq!(
+        (ran.status, ran.out.lines().count()),
+        (0, list.len()),
+        "{}",
+        ran.err
+    );
+    assert!(!list.is_empty());
+    for (number, (line, adapter)) in ran.out.lines().zip(&list).enumerate() {
+        let name = adapter["name"].as_str().expect("a name");
+        assert!(line.starts_with(&format!("{number}  {name} (")), "{line}");
+        for key in ["backend", "kind", "driver"] {
+            assert!(adapter[key].is_string(), "{adapter}");
+        }
+        assert!(adapter["float_targets"].is_boolean() && adapter["float_filtering"].is_boolean());
+    }
+    let scene = biased("adapters_number", 0);
+    // One beyond the last; the message lists those that there are.
+    let number = list.len().to_string();
+    let ran = texcrd(&["compare", &scene, "--adapter", &number]);
+    assert_eq!(ran.status, 2);
+    let name = list[0]["name"].as_str().expect("a name");
+    assert!(
+        ran.err.contains("--adapter") && ran.err.contains(name),
+        "{}",
+        ran.err
+    );
+}
+
+/// c1 is blue, and the picture of c0's draw after its first line shows nothing yet.
+#[test]
+fn registers_on_the_gpu() {
+    if !gpu() {
+        return;
+    }
+    let scene = biased("run_gpu_show", 0);
+    let out = scene.replace("scene.toml", "out.png");
+    let show = |more: &[&str]| {
+        let mut arguments = vec!["run", &scene, "-o", &out, "--on", "gpu"];
+        arguments.extend(more);
+        let ran = texcrd(&arguments);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        image::open(&out)
+            .expect("a picture")
+            .to_rgba8()
+            .get_pixel(2, 5)
+            .0
+    };
+    assert_eq!(show(&[]), [255, 0, 0, 255]);
+    assert_eq!(show(&["--show", "r0", "--draw", "c0"]), [255, 0, 0, 255]);
+    assert_eq!(show(&["--show", "r0@2", "--draw", "c0"]), [0, 0, 0, 255]);
+    // What is negative after the factor is black.
+    let [red, rest @ ..] = show(&[
+        "--show", "r0", "--draw", "c0", "--mag", "--scale", "-0.4", "--abs",
+    ]);
+    assert_eq!((red, rest), (0, [0, 0, 255]));
+}
