@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::process::Command;
 
 use texcrd::gpu::{GpuError, Renderer};
-use texcrd::scene::{LoadOptions, Scene};
+use texcrd::scene::{LoadOptions, RenderOptions, Scene};
 
 /// One white triangle.
 fn scene(state: &str) -> Scene {
@@ -32,13 +32,13 @@ fn a_lost_device_is_an_error_from_then_on() {
     };
     let scene = scene("");
     let mut renderer = Renderer::new(&device);
-    let before = renderer.render(&scene, None, &|_| ());
+    let before = renderer.render(&scene, &RenderOptions::default(), &|_| ());
     // The upper left half of the picture is white.
     let before = before.expect("the device is there");
     assert_eq!(before.get_pixel(1, 1).0, [255; 4]);
     device.device().destroy();
     for _ in 0..2 {
-        let after = renderer.render(&scene, None, &|_| ());
+        let after = renderer.render(&scene, &RenderOptions::default(), &|_| ());
         assert!(matches!(after, Err(GpuError::Lost(_))), "{after:?}");
     }
 }
@@ -49,7 +49,11 @@ fn a_picture_larger_than_the_device_can_hold() {
         return;
     };
     let most = device.device().limits().max_texture_dimension_2d;
-    let drawn = Renderer::new(&device).render(&scene(""), Some([most + 1, 1]), &|_| ());
+    let options = RenderOptions {
+        size: Some([most + 1, 1]),
+        show: None,
+    };
+    let drawn = Renderer::new(&device).render(&scene(""), &options, &|_| ());
     assert!(matches!(drawn, Err(GpuError::Limit { .. })), "{drawn:?}");
 }
 
@@ -58,7 +62,11 @@ fn a_state_that_webgpu_has_not() {
     let Some(device) = crate::device() else {
         return;
     };
-    let drawn = Renderer::new(&device).render(&scene("fill = \"point\""), None, &|_| ());
+    let drawn = Renderer::new(&device).render(
+        &scene("fill = \"point\""),
+        &RenderOptions::default(),
+        &|_| (),
+    );
     let Err(GpuError::Unsupported { draw, state }) = drawn else {
         panic!("{drawn:?}");
     };

@@ -151,6 +151,45 @@ fn different_pictures() {
     assert_eq!(texcrd(&["compare", &scene, "--tolerance", "255"]).status, 0);
 }
 
+/// The target holds what [`biased`] draws and differs everywhere; the picture shows the target and does not, because both
+/// paths see that of the CPU. It is a difference all the same.
+#[test]
+fn render_targets_are_compared_by_themselves() {
+    if !gpu() {
+        return;
+    }
+    let scene = biased("compare_target", 2);
+    let text = fs::read_to_string(&scene).expect("it was written");
+    let draws = "draws = [\"mirror\"]\n[meshes.all]";
+    let mirror = "\
+        [targets.room]\nsize = [8, 8]\ndraws = [\"c0\", \"c1\"]\n\
+        [textures.room]\ntarget = \"room\"\n\
+        [[draw]]\nname = \"mirror\"\nmesh = \"all\"\nstages.0.texture = \"room\"\n\
+        vs_text = \"vs.1.1\\nmov oPos, v0\\nmov oT0, v0\\n\"\n\
+        ps_text = \"ps.1.1\\ntex t0\\nmov r0, t0\\n\"\n";
+    fs::write(&scene, text.replace("[meshes.all]", draws) + mirror).expect("it can be written");
+    let (status, report) = json(&["compare", &scene, "--format", "json"]);
+    assert_eq!(status, 1, "{report}");
+    for (place, value) in [
+        ("/passed", Value::from(false)),
+        ("/max", 0.into()),
+        ("/targets/0/target", "room".into()),
+        ("/targets/0/face", 0.into()),
+        ("/targets/0/inside/above_tolerance", 64.into()),
+        ("/pixel", Value::Null),
+    ] {
+        assert_eq!(report.pointer(place), Some(&value), "{place} in {report}");
+    }
+    let ran = texcrd(&["compare", &scene]);
+    for part in [
+        "render target `room`",
+        "inside at most 255 (64 above 1)",
+        "\nno pixel inside triangles differs by more than 1\nin render targets: 64 pixels",
+    ] {
+        assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
+    }
+}
+
 #[test]
 fn what_compare_refuses() {
     let scene = biased("compare_refused", 0);

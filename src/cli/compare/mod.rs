@@ -33,7 +33,9 @@ Examples:
   texcrd compare asm/stained_glass/figure5.toml --size 320x240
   texcrd compare scene.toml --tolerance 8 -o differences.png
   texcrd compare scene.toml --pixel 120,84 --all-lines
-  texcrd compare scene.toml --adapter llvmpipe --format json")]
+  texcrd compare scene.toml --adapter llvmpipe --format json
+
+docs/compare.md says how to read what is printed.")]
 pub(super) struct Arguments {
     /// The scene file.
     #[arg(value_name = "SCENE")]

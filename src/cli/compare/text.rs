@@ -51,7 +51,7 @@ fn whole(out: &mut String, findings: &Findings<'_>) -> std::fmt::Result {
         let row = format!("  {step:>26} {:>12}{:>12}", of(inside), of(edges));
         writeln!(out, "{}", row.trim_end())?;
     }
-    if findings.edges.max() > 0 {
+    if findings.edges.above(findings.arguments.tolerance) > 0 {
         writeln!(
             out,
             "On edges, where depth bends from one pixel to the next, rounding decides which triangle covers a pixel:\n\
