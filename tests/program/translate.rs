@@ -77,13 +77,6 @@ fn what_does_not_fit_together_is_refused() {
             2,
             "only with --on gpu",
         ),
-        (
-            &[
-                "run", "x.toml", "-o", "x.png", "--on", "gpu", "--show", "r0",
-            ],
-            2,
-            "on the CPU",
-        ),
     ] {
         let ran = texcrd(arguments);
         assert_eq!(ran.status, status, "{arguments:?}: {}", ran.err);
