@@ -106,22 +106,25 @@ pub enum View {
     Component(usize),
     /// The length of (x, y, z) as grey.
     Magnitude,
+    /// All four components as they are, also of pixels that `texkill` discards: for comparisons, not for eyes.
+    Exact,
 }
 
 impl RegisterPicture {
     /// The colour that stands for a register's content.
     fn color(&self, register: [f32; 4]) -> [f32; 4] {
-        let [x, y, z, _] = register;
+        let [x, y, z, w] = register;
         let shown = match self.view {
-            View::Color => [x, y, z],
-            View::Component(c) => [register[c & 3]; 3],
-            View::Magnitude => [Vec4::new(x, y, z, 0.0).length(); 3],
+            View::Color => [x, y, z, 1.0],
+            View::Component(c) => [register[c & 3]; 4],
+            View::Magnitude => [Vec4::new(x, y, z, 0.0).length(); 4],
+            View::Exact => [x, y, z, w],
         };
-        let [r, g, b] = shown.map(|value| {
+        let [r, g, b, a] = shown.map(|value| {
             let value = if self.absolute { value.abs() } else { value };
             value * self.scale
         });
-        [r, g, b, 1.0]
+        [r, g, b, if self.view == View::Exact { a } else { 1.0 }]
     }
 }
 
@@ -197,7 +200,9 @@ impl PixelShader for PixelProgram<'_> {
                     }
                 }
             }
-            out.killed = *machine.killed();
+            if !matches!(&self.picture, Some(picture) if picture.view == View::Exact) {
+                out.killed = *machine.killed();
+            }
             if self.kernel.writes_depth() {
                 out.depth = machine.register(Slot::DEPTH)[0];
             }

@@ -12,6 +12,7 @@ use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{ShaderKind, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::program::Statement;
+use crate::raster::RegisterPicture;
 use std::collections::{BTreeSet, HashMap};
 
 /// A write that waits until the steps beside it have read.
@@ -58,6 +59,12 @@ pub(super) fn slots_read(op: Op, mask: WriteMask, i: usize, options: &Options) -
 /// The components of every slot that a kernel reads when the textures have these shapes.
 pub(super) fn components_read(kernel: &Kernel, options: &Options) -> [WriteMask; SLOT_COUNT] {
     let mut read = [WriteMask::NONE; SLOT_COUNT];
+    if let Some(picture) = options
+        .show
+        .filter(|_| kernel.version.kind() == ShaderKind::Pixel)
+    {
+        read[picture.slot.index()] = WriteMask::ALL;
+    }
     // Backwards, so that it is known which coordinates are sampled when the step comes that computes them.
     for step in kernel.steps.iter().rev() {
         let mask = kept(kernel, &read, step);
@@ -163,6 +170,11 @@ impl<'a> Body<'a> {
         (0..16).any(|i| Slot::input(i) == Some(slot))
     }
 
+    /// The register that a pixel shader returns in place of its colour.
+    pub(super) fn shown(&self) -> Option<RegisterPicture> {
+        (self.options.show).filter(|_| self.kind() == ShaderKind::Pixel)
+    }
+
     pub(super) fn name(&self, slot: Slot) -> String {
         let name = slot.name(self.kind());
         let from_outside = (0..8).any(|i| Slot::texcoord(i) == Some(slot))
@@ -174,7 +186,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn letters(&self, slot: Slot) -> [char; 4] {
+    pub(super) fn letters(&self, slot: Slot) -> [char; 4] {
         let coordinates = (0..8).any(|i| Slot::texcoord(i) == Some(slot)) || slot.is_internal();
         match self.kind() {
             ShaderKind::Pixel if !coordinates => RGBA,
@@ -242,14 +254,18 @@ impl<'a> Body<'a> {
         self.lines.extend(lines.up_to(program.version_span));
         self.declarations();
         let mut steps = kernel.steps.as_slice();
+        let most = self.shown().map_or(usize::MAX, |show| show.instructions);
         let loads = steps.iter().take_while(|step| is_load(step)).count();
-        for load in &steps[..loads] {
+        for load in steps[..loads].iter().filter(|load| load.origin < most) {
             self.step(load, &mut Vec::new());
         }
         steps = &steps[loads..];
         let mut pending = Vec::new();
         let mut number = 0;
         for statement in &program.statements {
+            if number == most && matches!(statement, Statement::Instruction(_)) {
+                return self.commit(&mut pending);
+            }
             self.lines.extend(lines.up_to(statement.span()));
             match statement {
                 Statement::Def(def) => self.definition(def),

@@ -1,7 +1,7 @@
 //! What is baked into a translation, beside the shaders.
 
 use crate::exec::STAGES;
-use crate::raster::{Compare, FogDistance, FogMode};
+use crate::raster::{Compare, FogDistance, FogMode, RegisterPicture};
 use crate::texture::{AddressMode, Filter, TextureKind};
 
 /// What a translation is made for. The default is Direct3D 8's default state with a 2D texture in every stage.
@@ -27,6 +27,10 @@ pub struct Options {
     /// Whether dot products are written out as products and sums, so that their order is that of the specification;
     /// else they are the `dot` of WGSL, which leaves the order open.
     pub exact_dots: bool,
+    /// A register of the pixel shader that is returned in place of the colour, as it is after some instructions: the
+    /// shader is cut there. Components that nothing has written are 0. Neither fog nor the alpha test touch it; `texkill`
+    /// as far as it has run does, unless the view is [`View::Exact`](crate::raster::View::Exact).
+    pub show: Option<RegisterPicture>,
     /// Name of the vertex entry point.
     pub vertex_entry: String,
     /// Name of the pixel entry point.
@@ -45,6 +49,7 @@ impl Default for Options {
             points: Points::None,
             clip_planes: 0,
             exact_dots: false,
+            show: None,
             vertex_entry: "vs_main".into(),
             pixel_entry: "ps_main".into(),
         }

@@ -1,12 +1,14 @@
 //! The pixel entry point.
 
 use super::body::Body;
-use super::expression::Expression;
+use super::expression::{Expression, construct};
 use super::helper::Helper;
 use super::layout::Field;
+use super::number;
 use super::options::Fog;
 use super::varyings::Varyings;
-use crate::raster::{Compare, FogDistance, FogMode};
+use crate::kernel::Slot;
+use crate::raster::{Compare, FogDistance, FogMode, RegisterPicture, View};
 
 /// The structure of what the stage returns, if that is more than a colour.
 pub(super) fn output_structure(writes_depth: bool) -> Option<&'static str> {
@@ -20,17 +22,23 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     body.statements();
     let mark = body.mark();
     tests(body, varyings);
-    if let Some(fog) = body.options.fog {
-        apply_fog(body, fog);
-    }
+    let result = match body.shown() {
+        Some(picture) => shown(body, &picture),
+        None => {
+            if let Some(fog) = body.options.fog {
+                apply_fog(body, fog);
+            }
+            "r0".into()
+        }
+    };
     if body.mark() > mark {
         body.insert_blank(mark);
     }
     let depth = body.stage.kernel.writes_depth();
     body.push(if depth {
-        "return PixelOutput(r0, depth);"
+        format!("return PixelOutput({result}, depth);")
     } else {
-        "return r0;"
+        format!("return {result};")
     });
     let parameter = match reads_inputs(varyings) {
         true => "in: Varyings",
@@ -53,15 +61,16 @@ fn reads_inputs(varyings: &Varyings) -> bool {
 /// Everything that takes the pixel out, behind all sampling, which must not come after it.
 fn tests(body: &mut Body<'_>, varyings: &Varyings) {
     let mut conditions = Vec::new();
-    if body.stage.kernel.kills() {
+    let shown = body.shown();
+    let exact = shown.is_some_and(|picture| picture.view == View::Exact);
+    if body.stage.kernel.kills() && !exact {
         conditions.push("killed".to_string());
     }
     for first in (0..varyings.clip).step_by(4) {
         conditions.push(format!("any(in.clip{} < vec4f())", first / 4));
     }
-    if let Some(alpha) = body
-        .options
-        .alpha_test
+    if let Some(alpha) = (body.options.alpha_test)
+        .filter(|_| shown.is_none())
         .and_then(|compare| alpha_fails(body, compare))
     {
         conditions.push(alpha);
@@ -75,6 +84,55 @@ fn tests(body: &mut Body<'_>, varyings: &Varyings) {
         body.push("    discard;");
         body.push("}");
     }
+}
+
+/// What is shown of a register, as [`RegisterPicture`] says.
+fn shown(body: &Body<'_>, picture: &RegisterPicture) -> String {
+    let slot = picture.slot;
+    // Registers that only vertex shaders have are 0 here.
+    let absent = slot == Slot::ADDRESS || (2..16).any(|i| Slot::input(i) == Some(slot));
+    let width = if absent { 0 } else { body.width(slot) };
+    let (name, letters) = (body.name(slot), body.letters(slot));
+    let first = |count: usize| {
+        if count < width {
+            let components: String = letters.iter().take(count).collect();
+            return format!("{name}.{components}");
+        }
+        let missing = std::iter::repeat_n("0.0".to_string(), count - width);
+        let parts: Vec<String> = (Some(name.clone()).filter(|_| width > 0).into_iter())
+            .chain(missing)
+            .collect();
+        match parts.as_slice() {
+            [whole] => whole.clone(),
+            _ => construct(parts, count).text,
+        }
+    };
+    let modified = |value: String| {
+        let value = if picture.absolute {
+            format!("abs({value})")
+        } else {
+            value
+        };
+        match number::literal(picture.scale) {
+            Some(scale) if picture.scale != 1.0 => format!("{value} * {scale}"),
+            _ => value,
+        }
+    };
+    let three = match picture.view {
+        View::Exact => return modified(first(4)),
+        View::Color => modified(first(3)),
+        View::Component(component) => {
+            let component = component & 3;
+            let value = match width {
+                1 if component == 0 => name,
+                2.. if component < width => format!("{name}.{}", letters[component]),
+                _ => "0.0".into(),
+            };
+            format!("vec3f({})", modified(value))
+        }
+        View::Magnitude => format!("vec3f({})", modified(format!("length({})", first(3)))),
+    };
+    format!("vec4f({three}, 1.0)")
 }
 
 /// The condition under which the alpha test takes the pixel out, in 8 bits as the target has them.

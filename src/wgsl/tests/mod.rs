@@ -4,4 +4,5 @@ mod contract;
 mod generated;
 mod opcodes;
 mod readable;
+mod show;
 mod support;
