@@ -109,9 +109,15 @@ impl SourceFile {
             .unwrap_or(self.bytes.len() as u32)
     }
 
+    /// The line (from 1) that holds the byte at this offset within the text; the last one behind the end.
+    pub fn line_at(&self, offset: u32) -> usize {
+        let offset = offset.min(self.bytes.len() as u32);
+        self.line_starts.partition_point(|&start| start <= offset)
+    }
+
     fn location(&self, offset: u32) -> (usize, usize) {
         let offset = offset.min(self.bytes.len() as u32);
-        let line = self.line_starts.partition_point(|&start| start <= offset);
+        let line = self.line_at(offset);
         let start = self.line_start(line);
         let before = self
             .bytes

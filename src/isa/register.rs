@@ -155,7 +155,14 @@ impl RegisterFile {
         {
             return (*name).to_string();
         }
-        format!("{}{index}", self.row().prefix)
+        // With room for the letters that mostly follow.
+        let mut name = String::with_capacity(16);
+        name.push_str(self.row().prefix);
+        match char::from_digit(index, 10) {
+            Some(digit) => name.push(digit),
+            None => name.push_str(&index.to_string()),
+        }
+        name
     }
 
     /// The set that holds only this file.

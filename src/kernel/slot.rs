@@ -86,6 +86,22 @@ impl Slot {
         Self::at(OT, index, 8)
     }
 
+    /// The number of an input, if it is one: the other way from [`Slot::input`].
+    pub fn input_index(self) -> Option<usize> {
+        self.within(V, R)
+    }
+
+    /// The number of an interpolated coordinate set: the other way from [`Slot::texcoord`].
+    pub fn texcoord_index(self) -> Option<usize> {
+        self.within(TC, T)
+    }
+
+    fn within(self, base: u8, end: u8) -> Option<usize> {
+        (base..end)
+            .contains(&self.0)
+            .then(|| usize::from(self.0 - base))
+    }
+
     fn at(base: u8, index: usize, count: usize) -> Option<Self> {
         (index < count).then(|| Self(base + index as u8))
     }

@@ -119,18 +119,25 @@ pub(super) enum ResultSuffix {
 }
 
 /// The suffixes of mnemonics with their text, underscore included.
-pub(super) fn result_suffixes() -> impl Iterator<Item = (ResultSuffix, String)> {
+pub(super) fn result_suffixes() -> impl Iterator<Item = (ResultSuffix, &'static str)> {
     let shifts = SHIFTS
         .iter()
-        .map(|row| (ResultSuffix::Shift(row.shift), row.suffix.to_string()));
-    shifts.chain([(ResultSuffix::Saturate, SATURATE_SUFFIX.to_string())])
+        .map(|row| (ResultSuffix::Shift(row.shift), row.suffix));
+    shifts.chain([(ResultSuffix::Saturate, SATURATE_SUFFIX)])
 }
 
 /// The result suffix of this text, underscore included.
+pub(super) fn exact_result_suffix(text: &str) -> Option<ResultSuffix> {
+    let mut all = result_suffixes();
+    let (suffix, _) = all.find(|(_, name)| name.eq_ignore_ascii_case(text))?;
+    Some(suffix)
+}
+
+/// The result suffix that this text is or can only be a misreading of.
 pub(super) fn result_suffix(text: &str) -> Found<ResultSuffix> {
-    let exact = result_suffixes().find(|(_, name)| name.eq_ignore_ascii_case(text));
-    Found::of(exact.map(|(suffix, _)| suffix), || {
-        only_reading(text, result_suffixes())
+    let named = |(suffix, name): (_, &str)| (suffix, name.to_string());
+    Found::of(exact_result_suffix(text), || {
+        only_reading(text, result_suffixes().map(named))
     })
 }
 
@@ -143,7 +150,7 @@ pub(super) fn joined_suffixes(word: &str) -> Option<String> {
     let mut stem = word.to_ascii_lowercase();
     let mut tail = String::new();
     while Opcode::from_mnemonic(&stem).is_none() {
-        let lost = |(_, suffix): (_, String)| -> Option<String> {
+        let lost = |(_, suffix): (_, &str)| -> Option<String> {
             stem.strip_suffix(suffix.trim_start_matches('_'))
                 .filter(|rest| !rest.is_empty())
                 .map(|rest| {

@@ -345,7 +345,7 @@ impl<'a> Parser<'a> {
             Found::No
                 if !operand.first
                     && names::has_source_suffixes(self.version)
-                    && names::result_suffix(text) == Found::Exact(ResultSuffix::Saturate) =>
+                    && names::exact_result_suffix(text) == Some(ResultSuffix::Saturate) =>
             {
                 let message = "a source cannot be saturated; the suffix is passed over";
                 let report = if self.lenient {
@@ -359,7 +359,7 @@ impl<'a> Parser<'a> {
             Found::No => {
                 operand.damaged = true;
                 let message = format!("{} is no source modifier", quote(text.as_bytes()));
-                let help = if matches!(names::result_suffix(text), Found::Exact(_)) {
+                let help = if names::exact_result_suffix(text).is_some() {
                     "it belongs to the mnemonic, where it modifies the result".to_string()
                 } else {
                     format!("the modifiers are {}", listed(SourceModifier::suffixes()))
@@ -437,14 +437,16 @@ impl<'a> Parser<'a> {
     /// of a comment.
     fn split_mask(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) -> bool {
         let (next, behind) = (self.peek(), self.token(self.at + 1));
+        let comma = behind.kind == Kind::Comma && !behind.first;
+        if next.kind != Kind::Word || next.first || !(comma || behind.first) {
+            return false;
+        }
         let joined = [text, self.word(next)].concat();
         let Letters::Exact(components) = names::letters(&joined) else {
             return false;
         };
         let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
-        let legal = any_order || components.is_sorted_by(|a, b| a < b);
-        let comma = behind.kind == Kind::Comma && !behind.first;
-        if next.kind != Kind::Word || next.first || !legal || !(comma || behind.first) {
+        if !(any_order || components.is_sorted_by(|a, b| a < b)) {
             return false;
         }
         self.bump();

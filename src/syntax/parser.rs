@@ -5,7 +5,7 @@ use super::names::{Found, Name, exact_register, register};
 use super::report::{Reports, alternatives, quote};
 use super::{Damage, rules};
 use crate::diagnostic::{Diagnostic, Fix, Rule, Span};
-use crate::isa::{Opcode, Version};
+use crate::isa::{Opcode, RegisterFile, Version};
 use crate::program::{Register, Statement};
 
 /// Reads the statements of one text.
@@ -216,16 +216,22 @@ impl<'a> Parser<'a> {
 
     /// Whether a word names a register as it should.
     pub(super) fn is_register(&self, token: Token) -> bool {
-        let word = self.word(token);
-        let stem = word.split_once('_').map_or(word, |(stem, _)| stem);
-        token.kind == Kind::Word && matches!(exact_register(stem), Some(Name::Register(..)))
+        self.named_register(token).is_some()
     }
 
     /// Whether a word names a register that the version has.
     pub(super) fn has_register(&self, token: Token) -> bool {
-        match self.registers(token) {
-            Found::Exact(Name::Register(file, index)) => index < file.count(self.version),
-            _ => false,
+        self.named_register(token)
+            .is_some_and(|(file, index)| index < file.count(self.version))
+    }
+
+    /// The register that a word names as it should, whether the version has it or not.
+    fn named_register(&self, token: Token) -> Option<(RegisterFile, u32)> {
+        let word = self.word(token);
+        let stem = word.split_once('_').map_or(word, |(stem, _)| stem);
+        match exact_register(stem).filter(|_| token.kind == Kind::Word) {
+            Some(Name::Register(file, index)) => Some((file, index)),
+            _ => None,
         }
     }
 

@@ -178,8 +178,7 @@ impl Parser<'_> {
             };
             let mut parts = mnemonic.split('_');
             let stem = parts.next().and_then(Opcode::from_mnemonic);
-            let suffixes =
-                parts.all(|s| matches!(names::result_suffix(&format!("_{s}")), Found::Exact(_)));
+            let suffixes = parts.all(|s| names::exact_result_suffix(&format!("_{s}")).is_some());
             let named = match names::exact_register(register) {
                 Some(Name::Register(file, index)) => index < file.count(self.version),
                 Some(Name::File(_)) => next.kind == Kind::Open,
@@ -213,7 +212,7 @@ impl Parser<'_> {
         let Some(opcode) = Opcode::from_mnemonic(stem) else {
             return false;
         };
-        let known = |s: &str| matches!(names::result_suffix(&format!("_{s}")), Found::Exact(_));
+        let known = |s: &str| names::exact_result_suffix(&format!("_{s}")).is_some();
         if self.word(token).contains('_') || !suffixes.split('_').skip(1).all(known) {
             return false;
         }
@@ -339,7 +338,7 @@ impl Parser<'_> {
             && !next.first
             && self.token(self.at + 1).kind != Kind::Comma
             && let stem = format!("_{}", self.word(next).trim_start_matches('_'))
-            && let Found::Exact(_) = names::result_suffix(&stem)
+            && names::exact_result_suffix(&stem).is_some()
         {
             let before = self.previous();
             self.bump();
@@ -387,11 +386,8 @@ impl Parser<'_> {
                 let help = match text.to_ascii_lowercase().as_str() {
                     "_pp" | "_centroid" => "it belongs to later shader models".to_string(),
                     _ => {
-                        let all: Vec<_> = names::result_suffixes().map(|(_, s)| s).collect();
-                        format!(
-                            "the suffixes are {}",
-                            listed(all.iter().map(String::as_str))
-                        )
+                        let all = names::result_suffixes().map(|(_, suffix)| suffix);
+                        format!("the suffixes are {}", listed(all))
                     }
                 };
                 self.error(&rules::RESULT_SUFFIX, span, message, &help);

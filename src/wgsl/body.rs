@@ -13,7 +13,8 @@ use crate::isa::{ShaderKind, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::program::Statement;
 use crate::raster::RegisterPicture;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::{Display, Write};
 
 /// A write that waits until the steps beside it have read.
 struct Pending<'k> {
@@ -40,8 +41,8 @@ pub(super) struct Body<'a> {
     names: BTreeSet<String>,
     killing: bool,
     discards: bool,
-    /// The lines so far, not indented.
-    lines: Vec<String>,
+    /// The lines so far.
+    text: String,
 }
 
 /// The slots of source `i` that an operation uses when it writes these components and the textures have these shapes.
@@ -123,7 +124,7 @@ impl<'a> Body<'a> {
             options,
             block: Block::default(),
             helpers: Helpers::default(),
-            magnitudes: Magnitudes::new(kind, HashMap::new(), options),
+            magnitudes: Magnitudes::new(kind, BTreeMap::new(), options),
             varying_widths,
             widths,
             read,
@@ -132,9 +133,9 @@ impl<'a> Body<'a> {
             names: BTreeSet::new(),
             killing: false,
             discards: false,
-            lines: Vec::new(),
+            text: String::new(),
         };
-        let known: HashMap<u32, [f32; 4]> = (kernel.definitions.iter())
+        let known: BTreeMap<u32, [f32; 4]> = (kernel.definitions.iter())
             .filter(|(index, _)| body.constant(*index) == Constant::Defined)
             .map(|(index, value)| (*index, bound_value(kind, *value)))
             .collect();
@@ -161,16 +162,11 @@ impl<'a> Body<'a> {
 
     /// The components that a slot has in the WGSL; 0 if nothing writes or reads it.
     pub(super) fn width(&self, slot: Slot) -> usize {
-        let set = (0..8).find(|i| Slot::texcoord(*i) == Some(slot));
-        match set {
+        match slot.texcoord_index() {
             Some(set) => self.varying_widths[set],
-            None if self.is_input(slot) => 4,
+            None if slot.input_index().is_some() => 4,
             None => self.widths[slot.index()],
         }
-    }
-
-    fn is_input(&self, slot: Slot) -> bool {
-        (0..16).any(|i| Slot::input(i) == Some(slot))
     }
 
     /// The register that a pixel shader returns in place of its colour.
@@ -179,18 +175,17 @@ impl<'a> Body<'a> {
     }
 
     pub(super) fn name(&self, slot: Slot) -> String {
-        let name = slot.name(self.kind());
-        let from_outside = (0..8).any(|i| Slot::texcoord(i) == Some(slot))
-            || (self.is_input(slot) && self.kind() == ShaderKind::Vertex);
+        let mut name = slot.name(self.kind());
+        let from_outside = slot.texcoord_index().is_some()
+            || (slot.input_index().is_some() && self.kind() == ShaderKind::Vertex);
         if from_outside {
-            format!("in.{name}")
-        } else {
-            name
+            name.insert_str(0, "in.");
         }
+        name
     }
 
     pub(super) fn letters(&self, slot: Slot) -> [char; 4] {
-        let coordinates = (0..8).any(|i| Slot::texcoord(i) == Some(slot)) || slot.is_internal();
+        let coordinates = slot.texcoord_index().is_some() || slot.is_internal();
         match self.kind() {
             ShaderKind::Pixel if !coordinates => RGBA,
             _ => XYZW,
@@ -208,53 +203,55 @@ impl<'a> Body<'a> {
 
     /// Where the next line will stand.
     pub(super) fn mark(&self) -> usize {
-        self.lines.len()
+        self.text.len()
     }
 
     /// Indents the lines since a mark.
     pub(super) fn indent_from(&mut self, mark: usize) {
-        for line in self.lines.iter_mut().skip(mark) {
-            line.insert_str(0, "    ");
+        let lines = self.text.split_off(mark);
+        for line in lines.lines() {
+            self.push(line);
         }
     }
 
     /// Puts an empty line at a mark.
     pub(super) fn insert_blank(&mut self, mark: usize) {
-        self.lines.insert(mark.min(self.lines.len()), String::new());
+        self.text.insert(mark, '\n');
     }
 
-    pub(super) fn push(&mut self, line: impl Into<String>) {
-        self.lines.push(line.into());
+    /// Adds a line. Only empty ones are not indented.
+    pub(super) fn push(&mut self, line: impl Display) {
+        const INDENTATION: &str = "    ";
+        self.text.push_str(INDENTATION);
+        let start = self.text.len();
+        // A text takes everything.
+        _ = write!(self.text, "{line}");
+        if self.text.len() == start {
+            self.text.truncate(start - INDENTATION.len());
+        }
+        self.text.push('\n');
     }
 
     /// A field of the uniform block.
     pub(super) fn uniform(&mut self, field: Field) -> String {
         self.block.use_field(field);
         let block = match self.kind() {
-            ShaderKind::Vertex => "vs",
-            ShaderKind::Pixel => "ps",
+            ShaderKind::Vertex => "vs.",
+            ShaderKind::Pixel => "ps.",
         };
-        format!("{block}.{}", field.name())
+        [block, &field.name()].concat()
     }
 
-    /// The lines, indented, and what they need.
+    /// The lines and what they need.
     pub(super) fn finish(self) -> (String, Block, Helpers) {
-        let mut text = String::new();
-        for line in &self.lines {
-            if !line.is_empty() {
-                text.push_str("    ");
-                text.push_str(line);
-            }
-            text.push('\n');
-        }
-        (text, self.block, self.helpers)
+        (self.text, self.block, self.helpers)
     }
 
     /// Everything between the head of the function and its outputs.
     pub(super) fn statements(&mut self) {
         let (program, kernel) = (self.stage.program, self.stage.kernel);
         let mut lines = Lines::new(self.stage);
-        self.lines.extend(lines.up_to(program.version_span));
+        lines.up_to(program.version_span, &mut |line| self.push(line));
         self.declarations();
         let mut steps = kernel.steps.as_slice();
         let most = self.shown().map_or(usize::MAX, |show| show.instructions);
@@ -269,7 +266,7 @@ impl<'a> Body<'a> {
             if number == most && matches!(statement, Statement::Instruction(_)) {
                 return self.commit(&mut pending);
             }
-            self.lines.extend(lines.up_to(statement.span()));
+            lines.up_to(statement.span(), &mut |line| self.push(line));
             match statement {
                 Statement::Def(def) => self.definition(def),
                 Statement::Dcl(_) => {}
@@ -286,7 +283,7 @@ impl<'a> Body<'a> {
             }
         }
         self.commit(&mut pending);
-        self.lines.extend(lines.rest());
+        lines.rest(&mut |line| self.push(line));
     }
 
     /// Leaves the registers that are looked at where they can be seen.
@@ -318,7 +315,7 @@ impl<'a> Body<'a> {
             for color in (0..2).filter_map(Slot::input) {
                 if !self.read[color.index()].is_empty() {
                     let name = self.name(color);
-                    self.push(format!("let {name} = saturate(in.{name});"));
+                    self.push(format_args!("let {name} = saturate(in.{name});"));
                 }
             }
             let named: BTreeSet<u32> = (kernel.constants())
@@ -327,29 +324,27 @@ impl<'a> Body<'a> {
                 .collect();
             for index in named {
                 let c = self.uniform(Field::Constants);
-                self.push(format!(
+                self.push(format_args!(
                     "let c{index} = clamp({c}[{index}], vec4f(-1.0), vec4f(1.0));"
                 ));
             }
         }
         for slot in Slot::all() {
             let width = self.widths[slot.index()];
-            let from_outside =
-                self.is_input(slot) || (0..8).any(|i| Slot::texcoord(i) == Some(slot));
+            let from_outside = slot.input_index().is_some() || slot.texcoord_index().is_some();
             if width == 0 || from_outside {
                 continue;
             }
             let name = self.name(slot);
             let preset = (kernel.presets.iter()).find(|(preset, _)| *preset == slot);
-            let line = match (width, preset) {
-                (1, _) if slot == Slot::ADDRESS => format!("var {name}: i32;"),
-                (1, _) => format!("var {name}: f32;"),
+            match (width, preset) {
+                (1, _) if slot == Slot::ADDRESS => self.push(format_args!("var {name}: i32;")),
+                (1, _) => self.push(format_args!("var {name}: f32;")),
                 (_, Some((_, value))) if *value == [1.0; 4] => {
-                    format!("var {name} = vec{width}f(1.0);")
+                    self.push(format_args!("var {name} = vec{width}f(1.0);"));
                 }
-                _ => format!("var {name}: vec{width}f;"),
-            };
-            self.push(line);
+                _ => self.push(format_args!("var {name}: vec{width}f;")),
+            }
         }
         if kernel.kills() {
             self.push("var killed = false;");
@@ -400,9 +395,11 @@ impl<'a> Body<'a> {
                 return;
             };
             let tested = self.operand(operand, WriteMask::XYZ).spread(3);
-            let test = format!("any({} < vec3f())", tested.text);
             let before = if self.killing { "killed || " } else { "" };
-            self.push(format!("killed = {before}{test};"));
+            self.push(format_args!(
+                "killed = {before}any({} < vec3f());",
+                tested.text
+            ));
             self.killing = true;
             return;
         }
@@ -424,7 +421,7 @@ impl<'a> Body<'a> {
             let outcome = self.magnitudes.outcome(step);
             let value = self.value(step).finished(step.result).whole();
             let name = self.free_name(step);
-            self.push(format!("let {name} = {};", value.text));
+            self.push(format_args!("let {name} = {};", value.text));
             let value = Value::Whole(Expression::new(name, value.width));
             pending.push(Pending {
                 step,
@@ -482,22 +479,22 @@ impl<'a> Body<'a> {
         let count = components.len();
         if width == 1 {
             let value = value.whole().text;
-            return self.push(format!("{name} = {value};"));
+            return self.push(format_args!("{name} = {value};"));
         }
         if let [only] = components.as_slice() {
             let value = value.whole().text;
-            return self.push(format!("{name}.{} = {value};", letters[*only]));
+            return self.push(format_args!("{name}.{} = {value};", letters[*only]));
         }
         if count == width {
             let value = value.whole().spread(width).text;
-            return self.push(format!("{name} = {value};"));
+            return self.push(format_args!("{name} = {value};"));
         }
         let (Some(&first), Some(&last)) = (components.first(), components.last()) else {
             return;
         };
         let keep = |range: std::ops::Range<usize>| -> Option<String> {
             let kept: String = range.map(|c| letters[c]).collect();
-            (!kept.is_empty()).then(|| format!("{name}.{kept}"))
+            (!kept.is_empty()).then(|| [&name, ".", &kept].concat())
         };
         if last + 1 - first == count {
             let written = match value {
@@ -509,14 +506,14 @@ impl<'a> Body<'a> {
                 .chain(written)
                 .chain(keep(last + 1..width));
             let all = construct(parts.collect(), width);
-            return self.push(format!("{name} = {};", all.text));
+            return self.push(format_args!("{name} = {};", all.text));
         }
         let value = value.whole().spread(count).text;
         let together: String = components.iter().map(|c| letters[*c]).collect();
         self.push("{");
-        self.push(format!("    let {together} = {value};"));
+        self.push(format_args!("    let {together} = {value};"));
         for (part, component) in components.iter().enumerate() {
-            self.push(format!(
+            self.push(format_args!(
                 "    {name}.{} = {together}.{};",
                 letters[*component], XYZW[part]
             ));
@@ -545,24 +542,23 @@ impl<'a> Body<'a> {
 
 /// Components of a vector of `width` components: a scalar if they are all the same.
 pub(super) fn select(
-    name: String,
+    mut name: String,
     width: usize,
     components: &[usize],
     letters: [char; 4],
 ) -> Expression {
-    let first = components.first().copied().unwrap_or(0);
     if width == 1 {
         return Expression::new(name, 1);
     }
-    if components.iter().all(|c| *c == first) {
-        return Expression::new(format!("{name}.{}", letters[first]), 1);
+    let first = components.first().copied().unwrap_or(0);
+    let same = components.iter().all(|c| *c == first);
+    if !same && components.iter().copied().eq(0..width) {
+        return Expression::new(name, components.len());
     }
-    let count = components.len();
-    if components.iter().copied().eq(0..width) {
-        return Expression::new(name, count);
-    }
-    let swizzle: String = components.iter().map(|c| letters[*c]).collect();
-    Expression::new(format!("{name}.{swizzle}"), count)
+    let named = if same { &[first] } else { components };
+    name.push('.');
+    name.extend(named.iter().map(|c| letters[*c]));
+    Expression::new(name, named.len())
 }
 
 /// The components that a step writes and that are not lost: of coordinates those that are sampled, of outputs with one

@@ -112,9 +112,9 @@ impl Body<'_> {
         match (self.constant(index), self.kind()) {
             (Constant::Missing, _) => "vec4f()".into(),
             (Constant::Uniform, ShaderKind::Vertex) => {
-                format!("{}[{index}]", self.uniform(Field::Constants))
+                self.uniform(Field::Constants) + "[" + &index.to_string() + "]"
             }
-            (Constant::Uniform | Constant::Defined, _) => format!("c{index}"),
+            (Constant::Uniform | Constant::Defined, _) => RegisterFile::Const.register_name(index),
         }
     }
 

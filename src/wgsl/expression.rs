@@ -1,6 +1,7 @@
 //! Pieces of WGSL that know how tightly they bind and how wide they are.
 
 use crate::isa::{ResultModifier, SourceModifier};
+use std::borrow::Borrow;
 
 /// How tightly the outermost operator of an expression binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,8 +38,8 @@ impl Expression {
     }
 
     /// A call of a function that returns `width` components.
-    pub(super) fn call(function: &str, arguments: &[String], width: usize) -> Self {
-        Self::new(format!("{function}({})", arguments.join(", ")), width)
+    pub(super) fn call<S: Borrow<str>>(function: &str, arguments: &[S], width: usize) -> Self {
+        Self::new([function, "(", &arguments.join(", "), ")"].concat(), width)
     }
 
     fn operator(text: String, binding: Binding, width: usize) -> Self {
@@ -53,7 +54,7 @@ impl Expression {
     /// The text as an operand of an operator that binds like this.
     pub(super) fn within(&self, binding: Binding) -> String {
         if self.binding < binding {
-            format!("({})", self.text)
+            ["(", &self.text, ")"].concat()
         } else {
             self.text.clone()
         }
@@ -72,8 +73,8 @@ impl Expression {
         let (left, width) = (&self.text, self.wider(other));
         // The bits are the same: only the sign of the product changes.
         let text = match &other.unsigned {
-            Some(unsigned) => format!("{left} - {unsigned}"),
-            None => format!("{left} + {}", other.within(Binding::Product)),
+            Some(unsigned) => [left, " - ", unsigned].concat(),
+            None => [left, " + ", &other.within(Binding::Product)].concat(),
         };
         Self::operator(text, Binding::Sum, width)
     }
@@ -81,10 +82,10 @@ impl Expression {
     pub(super) fn minus(&self, other: &Self) -> Self {
         let (left, width) = (&self.text, self.wider(other));
         let text = match &other.unsigned {
-            Some(unsigned) => format!("{left} + {unsigned}"),
+            Some(unsigned) => [left, " + ", unsigned].concat(),
             // `--` is no operator of WGSL.
-            None if other.text.starts_with('-') => format!("{left} - ({})", other.text),
-            None => format!("{left} - {}", other.within(Binding::Product)),
+            None if other.text.starts_with('-') => [left, " - (", &other.text, ")"].concat(),
+            None => [left, " - ", &other.within(Binding::Product)].concat(),
         };
         Self::operator(text, Binding::Sum, width)
     }
@@ -93,17 +94,17 @@ impl Expression {
         let left = self.within(Binding::Product);
         let right = other.within(Binding::Sign);
         let unsigned = match (&self.unsigned, &other.unsigned) {
-            (Some(unsigned), None) => Some(format!("{unsigned} * {right}")),
-            (None, Some(unsigned)) => Some(format!("{left} * {unsigned}")),
+            (Some(unsigned), None) => Some([unsigned, " * ", &right].concat()),
+            (None, Some(unsigned)) => Some([&left, " * ", unsigned].concat()),
             _ => None,
         };
-        let text = format!("{left} * {right}");
+        let text = [left, right].join(" * ");
         Self::operator(text, Binding::Product, self.wider(other)).with_unsigned(unsigned)
     }
 
     /// `function(self)`, component by component.
     pub(super) fn map(&self, function: &str) -> Self {
-        Self::call(function, std::slice::from_ref(&self.text), self.width)
+        Self::call(function, &[self.text.as_str()], self.width)
     }
 
     pub(super) fn number(text: &str) -> Self {
@@ -111,9 +112,9 @@ impl Expression {
     }
 
     /// With exactly `width` components.
-    pub(super) fn spread(&self, width: usize) -> Self {
+    pub(super) fn spread(self, width: usize) -> Self {
         if self.width == width {
-            self.clone()
+            self
         } else {
             Self::new(format!("vec{width}f({})", self.text), width)
         }
@@ -121,22 +122,22 @@ impl Expression {
 
     /// After a source modifier. The divide modifiers are steps of their own.
     pub(super) fn modified(self, modifier: SourceModifier) -> Self {
-        let half = Self::number("0.5");
-        let one = Self::number("1.0");
+        let half = || Self::number("0.5");
+        let one = || Self::number("1.0");
         let twice = |e: &Self| Self::number("2.0").times(e);
         match modifier {
             SourceModifier::None | SourceModifier::Dz | SourceModifier::Dw => self,
             SourceModifier::Negate => {
                 let positive = self.within(Binding::Primary);
-                Self::operator(format!("-{positive}"), Binding::Sign, self.width)
+                Self::operator(["-", &positive].concat(), Binding::Sign, self.width)
                     .with_unsigned(Some(positive))
             }
-            SourceModifier::Bias => self.minus(&half),
-            SourceModifier::BiasNegate => half.minus(&self),
+            SourceModifier::Bias => self.minus(&half()),
+            SourceModifier::BiasNegate => half().minus(&self),
             // 2·x − 1 has the bits of 2·(x − 0.5): doubling is exact.
-            SourceModifier::Bx2 => twice(&self).minus(&one),
-            SourceModifier::Bx2Negate => one.minus(&twice(&self)),
-            SourceModifier::Complement => one.minus(&self),
+            SourceModifier::Bx2 => twice(&self).minus(&one()),
+            SourceModifier::Bx2Negate => one().minus(&twice(&self)),
+            SourceModifier::Complement => one().minus(&self),
             SourceModifier::X2 => twice(&self),
             SourceModifier::X2Negate => {
                 let doubled = format!("2.0 * {}", self.within(Binding::Sign));
@@ -174,8 +175,8 @@ impl Expression {
     /// `self` compared with `other`; what comes out is not a number any more.
     pub(super) fn compared(&self, operator: &str, other: &Self) -> Self {
         let width = self.wider(other);
-        let (left, right) = (self.spread(width), other.spread(width));
-        let text = format!("{} {operator} {}", left.text, right.text);
+        let [left, right] = [self, other].map(|side| side.clone().spread(width).text);
+        let text = [&left, " ", operator, " ", &right].concat();
         Self::operator(text, Binding::Sum, width)
     }
 }
@@ -195,7 +196,7 @@ impl Value {
             Self::Parts(parts) => match <[Expression; 1]>::try_from(parts) {
                 Ok([only]) => only,
                 Err(parts) => construct(
-                    parts.iter().map(|part| part.text.clone()).collect(),
+                    parts.iter().map(|part| part.text.as_str()).collect(),
                     parts.len(),
                 ),
             },
@@ -212,15 +213,15 @@ impl Value {
 }
 
 /// A vector from parts that together have `width` components, a part a line where one line would be long.
-pub(super) fn construct(parts: Vec<String>, width: usize) -> Expression {
+pub(super) fn construct<S: Borrow<str>>(parts: Vec<S>, width: usize) -> Expression {
     const LONG: usize = 84;
-    let length: usize = parts.iter().map(|part| part.len() + 2).sum();
+    let length: usize = parts.iter().map(|part| part.borrow().len() + 2).sum();
     if length <= LONG {
         return Expression::call(&format!("vec{width}f"), &parts, width);
     }
     let lines: String = parts
         .iter()
-        .map(|part| format!("        {part},\n"))
+        .map(|part| format!("        {},\n", part.borrow()))
         .collect();
     Expression::new(format!("vec{width}f(\n{lines}    )"), width)
 }

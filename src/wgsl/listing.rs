@@ -2,6 +2,7 @@
 
 use super::Stage;
 use crate::diagnostic::{SourceFile, Span};
+use std::fmt::Arguments;
 
 /// The longest line that is quoted, in characters; what is longer ends in `…`.
 const LONGEST: usize = 160;
@@ -41,47 +42,65 @@ impl<'a> Lines<'a> {
             .map_or(String::new(), |file| readable(file.name().as_bytes()))
     }
 
-    /// Comments for the line on which a statement begins and for all lines before it that were not given out yet.
-    pub(super) fn up_to(&mut self, statement: Span) -> Vec<String> {
-        let Some(location) = self.stage.source.locate(statement) else {
-            return Vec::new();
+    /// Quotes the line on which a statement begins and all lines before it that were not given out yet.
+    pub(super) fn up_to(&mut self, statement: Span, push: &mut dyn FnMut(Arguments<'_>)) {
+        let Some(here) = self.stage.source.file_of(statement.start) else {
+            return;
         };
-        let here = self.stage.source.file_of(statement.start);
-        if here.map(SourceFile::span) == self.file.map(SourceFile::span) {
-            return self.until(location.end_line.max(location.line));
+        let line_at = |place: u32| here.line_at(place.saturating_sub(here.span().start));
+        if Some(here.span()) == self.file.map(SourceFile::span) {
+            return self.until(line_at(statement.end.max(statement.start)), push);
         }
         // The statement came from another text, a file that was included for example.
-        let text = readable(here.map_or(&[][..], |file| file.line(location.line)));
-        vec![format!(
-            "// {}:{}: {text}",
-            readable(location.file.as_bytes()),
-            location.line
-        )]
+        let number = line_at(statement.start);
+        let (name, text) = (
+            readable(here.name().as_bytes()),
+            readable(here.line(number)),
+        );
+        push(format_args!("// {name}:{number}: {text}"));
     }
 
-    /// Comments for the lines behind the last statement.
-    pub(super) fn rest(&mut self) -> Vec<String> {
-        self.until(self.last)
+    /// Quotes the lines behind the last statement.
+    pub(super) fn rest(&mut self, push: &mut dyn FnMut(Arguments<'_>)) {
+        self.until(self.last, push);
     }
 
-    fn until(&mut self, last: usize) -> Vec<String> {
+    fn until(&mut self, last: usize, push: &mut dyn FnMut(Arguments<'_>)) {
         let Some(file) = self.file else {
-            return Vec::new();
+            return;
         };
         let first = self.next;
         self.next = self.next.max(last.saturating_add(1));
-        (first..self.next)
-            .map(|number| (number, readable(file.line(number))))
-            .filter(|(_, text)| !text.is_empty())
-            .map(|(number, text)| format!("// {number}: {text}"))
-            .collect()
+        for number in first..self.next {
+            let text = readable(file.line(number));
+            if !text.is_empty() {
+                push(format_args!("// {number}: {text}"));
+            }
+        }
     }
 }
 
 /// Text that stays within one comment: white space of every kind (line ends of WGSL among it) is one blank, control
 /// characters are replaced.
 fn readable(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes);
+    let is_plain = |byte: &u8| matches!(byte, b'\t' | b' '..=b'~');
+    match std::str::from_utf8(bytes) {
+        // Nearly all lines; each of their characters is one byte.
+        Ok(text) if bytes.len() <= LONGEST && bytes.iter().all(is_plain) => {
+            let mut line = String::with_capacity(text.len());
+            for word in text.split_ascii_whitespace() {
+                if !line.is_empty() {
+                    line.push(' ');
+                }
+                line.push_str(word);
+            }
+            line
+        }
+        _ => cleaned(&String::from_utf8_lossy(bytes)),
+    }
+}
+
+fn cleaned(text: &str) -> String {
     let mut line = String::with_capacity(text.len().min(2 * LONGEST));
     let mut count = 0;
     for word in text.split_whitespace() {

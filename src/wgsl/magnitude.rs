@@ -9,7 +9,7 @@
 use super::Options;
 use crate::isa::{ResultModifier, ShaderKind, SourceModifier, WriteMask};
 use crate::kernel::{Op, Operand, Place, SLOT_COUNT, Slot, Step};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// A number that may be infinite or NaN.
 const UNBOUNDED: f64 = f64::INFINITY;
@@ -42,9 +42,10 @@ pub(super) struct Magnitudes {
     kind: ShaderKind,
     most: [[f64; 4]; SLOT_COUNT],
     writes: [[u32; 4]; SLOT_COUNT],
-    facts: Vec<[Option<Fact>; 4]>,
+    /// By slot and component.
+    facts: BTreeMap<(Slot, usize), Fact>,
     /// The constants whose values are known.
-    known: HashMap<u32, [f32; 4]>,
+    known: BTreeMap<u32, [f32; 4]>,
     /// The largest magnitude of what comes from outside.
     outside: f64,
     /// The largest magnitude of a texel of each stage.
@@ -58,7 +59,7 @@ pub(super) struct Outcome {
 }
 
 impl Magnitudes {
-    pub(super) fn new(kind: ShaderKind, known: HashMap<u32, [f32; 4]>, options: &Options) -> Self {
+    pub(super) fn new(kind: ShaderKind, known: BTreeMap<u32, [f32; 4]>, options: &Options) -> Self {
         let outside = if options.wild_inputs {
             UNBOUNDED
         } else {
@@ -77,7 +78,7 @@ impl Magnitudes {
             kind,
             most,
             writes: [[0; 4]; SLOT_COUNT],
-            facts: vec![[const { None }; 4]; SLOT_COUNT],
+            facts: BTreeMap::new(),
             known,
             texels: (options.stages).map(|stage| if stage.wide_texels { outside } else { 1.0 }),
             outside,
@@ -86,10 +87,14 @@ impl Magnitudes {
 
     fn factor(&self, operand: &Operand, slot: usize) -> Factor {
         let component = operand.swizzle.slot(slot);
+        let known = match operand.place {
+            Place::Constant(index) => self.known.get(&index),
+            _ => None,
+        };
         let most = match operand.place {
             Place::Slot(slot) => self.most[slot.index()][component],
             Place::Literal(number) => f64::from(number.abs()),
-            Place::Constant(index) => match self.known.get(&index) {
+            Place::Constant(_) => match known {
                 Some(value) if value[component].is_finite() => f64::from(value[component].abs()),
                 Some(_) => UNBOUNDED,
                 None if self.kind == ShaderKind::Pixel => 1.0,
@@ -107,11 +112,7 @@ impl Magnitudes {
             | SourceModifier::Dz
             | SourceModifier::Dw => most,
         };
-        let known = match operand.place {
-            Place::Constant(index) => self.known.contains_key(&index),
-            Place::Literal(_) => true,
-            Place::Slot(_) | Place::Relative(_) => false,
-        };
+        let known = known.is_some() || matches!(operand.place, Place::Literal(_));
         let plain = matches!(
             operand.modifier,
             SourceModifier::None | SourceModifier::Negate
@@ -122,43 +123,35 @@ impl Magnitudes {
         }
     }
 
-    /// The factors of the products of a step, pair by pair.
-    fn products(&self, step: &Step) -> Vec<(Factor, Factor)> {
-        let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
-            return Vec::new();
-        };
-        let pairs = |slots: WriteMask, a: &Operand, b: &Operand| -> Vec<_> {
-            (slots.components())
-                .map(|slot| (self.factor(a, slot), self.factor(b, slot)))
-                .collect()
-        };
-        match step.op {
-            Op::Mul | Op::Mad => pairs(step.mask, a, b),
-            Op::Dp3 => pairs(WriteMask::XYZ, a, b),
-            Op::Dp4 => pairs(WriteMask::ALL, a, b),
-            Op::Dst => pairs(WriteMask::Y.and(step.mask), a, b),
-            Op::Lrp => {
-                let mut both = pairs(step.mask, a, b);
-                if let Some(c) = step.sources.get(2) {
-                    both.extend(step.mask.components().map(|slot| {
-                        let a = self.factor(a, slot);
-                        let rest = Factor {
-                            most: limited(a.most + 1.0),
-                            zero: true,
-                        };
-                        (rest, self.factor(c, slot))
-                    }));
-                }
-                both
-            }
-            _ => Vec::new(),
-        }
-    }
-
     /// Whether a step needs products that are guarded against a factor of 0.
     pub(super) fn needs_guard(&self, step: &Step) -> bool {
-        (self.products(step).iter())
-            .any(|(a, b)| (a.most == UNBOUNDED && b.zero) || (b.most == UNBOUNDED && a.zero))
+        let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
+            return false;
+        };
+        // Whether one factor may be 0 and the other infinite or NaN.
+        let fails = |a: Factor, b: Factor| {
+            (a.most == UNBOUNDED && b.zero) || (b.most == UNBOUNDED && a.zero)
+        };
+        let any_fails = |slots: WriteMask| {
+            (slots.components()).any(|slot| fails(self.factor(a, slot), self.factor(b, slot)))
+        };
+        match step.op {
+            Op::Mul | Op::Mad => any_fails(step.mask),
+            Op::Dp3 => any_fails(WriteMask::XYZ),
+            Op::Dp4 => any_fails(WriteMask::ALL),
+            Op::Dst => any_fails(WriteMask::Y.and(step.mask)),
+            Op::Lrp => {
+                let rest = |slot: usize| Factor {
+                    most: limited(self.factor(a, slot).most + 1.0),
+                    zero: true,
+                };
+                any_fails(step.mask)
+                    || step.sources.get(2).is_some_and(|c| {
+                        (step.mask.components()).any(|slot| fails(rest(slot), self.factor(c, slot)))
+                    })
+            }
+            _ => false,
+        }
     }
 
     /// Whether no slot of an operand that the mask has is infinite or NaN.
@@ -188,7 +181,10 @@ impl Magnitudes {
             if step.mask.has(component) {
                 self.most[at][component] = outcome.most[component];
                 self.writes[at][component] += 1;
-                self.facts[at][component] = fact;
+                match fact {
+                    Some(fact) => self.facts.insert((step.destination, component), fact),
+                    None => self.facts.remove(&(step.destination, component)),
+                };
             }
         }
     }
@@ -289,7 +285,8 @@ impl Magnitudes {
     fn known_of(&self, operand: &Operand, slot: usize) -> Option<&Fact> {
         match operand.place {
             Place::Slot(register) => {
-                self.facts[register.index()][operand.swizzle.slot(slot)].as_ref()
+                let component = operand.swizzle.slot(slot);
+                self.facts.get(&(register, component))
             }
             _ => None,
         }

@@ -79,6 +79,7 @@ use constants::{Constant, bound_value};
 use helper::Helpers;
 use layout::Block;
 use listing::Lines;
+use std::fmt::Write;
 use std::ops::Range;
 use varyings::Varyings;
 
@@ -246,7 +247,7 @@ impl<'a> Part<'a> {
         let (text, block, helpers) = body.finish();
         Self {
             stage,
-            function: format!("{head}{text}}}\n"),
+            function: [&head, text.as_str(), "}\n"].concat(),
             block,
             helpers,
             reflection,
@@ -268,11 +269,14 @@ impl<'a> Part<'a> {
     fn uniform_structure(&self) -> Option<String> {
         let (fields, _) = self.block.fields();
         let (_, structure, _) = self.block_name();
-        let members: String = fields
-            .iter()
-            .map(|f| format!("    {}: {}, // {}\n", f.name, f.wgsl_type, f.field.about()))
-            .collect();
-        (!members.is_empty()).then(|| format!("struct {structure} {{\n{members}}}\n"))
+        (!fields.is_empty()).then(|| {
+            let mut text = format!("struct {structure} {{\n");
+            for f in &fields {
+                let about = f.field.about();
+                _ = writeln!(text, "    {}: {}, // {about}", f.name, f.wgsl_type);
+            }
+            text + "}\n"
+        })
     }
 
     fn bindings(&self, options: &Options) -> Vec<Binding> {
@@ -383,27 +387,26 @@ fn definitions(body: &Body<'_>) -> Vec<Definition> {
 
 /// The comment at the top: what was translated and what is to be bound where.
 fn heading(parts: &[&Part<'_>], bindings: &[Binding], options: &Options) -> String {
-    let names: Vec<String> = (parts.iter())
-        .map(|part| {
-            format!(
-                "{} {}",
-                part.stage.program.version,
-                Lines::new(part.stage).name()
-            )
-        })
-        .collect();
-    let mut text = format!("// {}, translated by texcrd.\n", names.join(" and "));
+    let mut text = String::with_capacity(1024);
+    for (i, part) in parts.iter().enumerate() {
+        let before = if i == 0 { "// " } else { " and " };
+        let version = part.stage.program.version;
+        _ = write!(text, "{before}{version} {}", Lines::new(part.stage).name());
+    }
+    text.push_str(", translated by texcrd.\n");
     if !bindings.is_empty() {
         text.push_str("//\n// What binds where:\n");
     }
     for binding in bindings {
-        let about = match &binding.resource {
+        let (group, number, name) = (binding.group, binding.binding, &binding.name);
+        _ = write!(text, "//   group {group}, binding {number}: {name}, ");
+        _ = match &binding.resource {
             Resource::Uniform { stage, size, .. } => {
                 let stage = match stage {
                     ShaderKind::Vertex => "vertex",
                     ShaderKind::Pixel => "pixel",
                 };
-                format!("uniform block of the {stage} shader, {size} bytes")
+                writeln!(text, "uniform block of the {stage} shader, {size} bytes")
             }
             Resource::Texture { stage, dimension } => {
                 let about = match dimension {
@@ -412,27 +415,17 @@ fn heading(parts: &[&Part<'_>], bindings: &[Binding], options: &Options) -> Stri
                     Dimension::Cube => "cube",
                     Dimension::D3 => "volume",
                 };
-                format!("{about} of stage {stage}")
+                writeln!(text, "{about} of stage {stage}")
             }
             Resource::Sampler { stage, clamps } => {
-                let axes: String = "uvw"
-                    .chars()
-                    .zip(clamps)
+                let axes: String = ("uvw".chars().zip(clamps))
                     .filter(|(_, c)| **c)
                     .map(|(a, _)| a)
                     .collect();
-                let clamps = if axes.is_empty() {
-                    String::new()
-                } else {
-                    format!(", clamps {axes}")
-                };
-                format!("sampler of stage {stage}{clamps}")
+                let clamps = if axes.is_empty() { "" } else { ", clamps " };
+                writeln!(text, "sampler of stage {stage}{clamps}{axes}")
             }
         };
-        let (group, number, name) = (binding.group, binding.binding, &binding.name);
-        text.push_str(&format!(
-            "//   group {group}, binding {number}: {name}, {about}\n"
-        ));
     }
     if options.points != Points::None && parts.iter().any(|part| part.kind() == ShaderKind::Vertex)
     {
@@ -445,23 +438,24 @@ fn heading(parts: &[&Part<'_>], bindings: &[Binding], options: &Options) -> Stri
 
 /// The variables that are bound.
 fn declarations(bindings: &[Binding]) -> Option<String> {
-    let lines: String = bindings
-        .iter()
-        .map(|b| {
-            let place = format!("@group({}) @binding({})", b.group, b.binding);
-            let (space, of) = match &b.resource {
-                Resource::Uniform { stage, .. } => (
-                    "<uniform>",
-                    match stage {
-                        ShaderKind::Vertex => "VertexUniforms",
-                        ShaderKind::Pixel => "PixelUniforms",
-                    },
-                ),
-                Resource::Texture { dimension, .. } => ("", dimension.wgsl()),
-                Resource::Sampler { .. } => ("", "sampler"),
-            };
-            format!("{place} var{space} {}: {of};\n", b.name)
-        })
-        .collect();
+    let mut lines = String::new();
+    for b in bindings {
+        let (space, of) = match &b.resource {
+            Resource::Uniform { stage, .. } => (
+                "<uniform>",
+                match stage {
+                    ShaderKind::Vertex => "VertexUniforms",
+                    ShaderKind::Pixel => "PixelUniforms",
+                },
+            ),
+            Resource::Texture { dimension, .. } => ("", dimension.wgsl()),
+            Resource::Sampler { .. } => ("", "sampler"),
+        };
+        let (group, binding, name) = (b.group, b.binding, &b.name);
+        _ = writeln!(
+            lines,
+            "@group({group}) @binding({binding}) var{space} {name}: {of};"
+        );
+    }
     (!lines.is_empty()).then_some(lines)
 }

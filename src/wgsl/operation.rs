@@ -159,7 +159,7 @@ impl Body<'_> {
 
     fn called(&mut self, helper: Helper, arguments: &[Expression], width: usize) -> Expression {
         let name = self.helpers.call(helper);
-        let arguments: Vec<String> = arguments.iter().map(|a| a.text.clone()).collect();
+        let arguments: Vec<&str> = arguments.iter().map(|a| a.text.as_str()).collect();
         Expression::call(&name, &arguments, width)
     }
 
@@ -168,7 +168,7 @@ impl Body<'_> {
             return a.times(b);
         }
         let width = a.width.max(b.width);
-        let factors = [a.spread(width), b.spread(width)];
+        let factors = [a, b].map(|factor| factor.clone().spread(width));
         self.called(Helper::MulZero(width), &factors, width)
     }
 
@@ -360,8 +360,8 @@ fn truth(a: &Expression, operator: &str, b: &Expression) -> Expression {
 fn choice(no: &Expression, yes: &Expression, test: &Expression) -> Expression {
     let width = no.width.max(yes.width).max(test.width);
     let arguments = [
-        no.spread(width).text,
-        yes.spread(width).text,
+        no.clone().spread(width).text,
+        yes.clone().spread(width).text,
         test.text.clone(),
     ];
     Expression::call("select", &arguments, width)

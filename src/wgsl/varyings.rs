@@ -5,6 +5,7 @@ use super::reflection::Varying;
 use super::{Options, Stage};
 use crate::kernel::Slot;
 use crate::raster::FogMode;
+use std::fmt::Write;
 
 /// How many coordinate sets there are.
 pub(super) const SETS: usize = 8;
@@ -116,26 +117,27 @@ impl Varyings {
 
     /// The structure, or nothing if it has no members.
     pub(super) fn structure(&self) -> Option<String> {
-        let mut members = Vec::new();
-        if self.position {
-            members.push("    @builtin(position) position: vec4f,\n".to_string());
+        let list = self.list();
+        if list.is_empty() && !self.position {
+            return None;
         }
-        for varying in self.list() {
-            let of = match varying.components {
-                1 => "f32".to_string(),
-                n => format!("vec{n}f"),
-            };
+        let mut text = String::from("struct Varyings {\n");
+        if self.position {
+            text.push_str("    @builtin(position) position: vec4f,\n");
+        }
+        for varying in list {
             let flat = if varying.flat {
                 " @interpolate(flat)"
             } else {
                 ""
             };
             let (name, location) = (&varying.name, varying.location);
-            members.push(format!("    @location({location}){flat} {name}: {of},\n"));
+            _ = write!(text, "    @location({location}){flat} {name}: ");
+            _ = match varying.components {
+                1 => writeln!(text, "f32,"),
+                n => writeln!(text, "vec{n}f,"),
+            };
         }
-        if members.is_empty() {
-            return None;
-        }
-        Some(format!("struct Varyings {{\n{}}}\n", members.concat()))
+        Some(text + "}\n")
     }
 }

@@ -5,6 +5,7 @@ use super::layout::Field;
 use super::options::Points;
 use super::varyings::Varyings;
 use crate::kernel::{Kernel, Slot};
+use std::fmt::Write;
 
 /// The vertex registers that a kernel reads.
 pub(super) fn inputs(kernel: &Kernel) -> impl Iterator<Item = u32> + '_ {
@@ -13,10 +14,12 @@ pub(super) fn inputs(kernel: &Kernel) -> impl Iterator<Item = u32> + '_ {
 
 /// The structure of the inputs, or nothing if there are none.
 pub(super) fn input_structure(kernel: &Kernel) -> Option<String> {
-    let members: String = inputs(kernel)
-        .map(|i| format!("    @location({i}) v{i}: vec4f,\n"))
-        .collect();
-    (!members.is_empty()).then(|| format!("struct VertexInput {{\n{members}}}\n"))
+    inputs(kernel).next()?;
+    let mut text = String::from("struct VertexInput {\n");
+    for i in inputs(kernel) {
+        _ = writeln!(text, "    @location({i}) v{i}: vec4f,");
+    }
+    Some(text + "}\n")
 }
 
 /// The function. The body is complete afterwards.
