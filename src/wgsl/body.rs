@@ -58,9 +58,8 @@ pub(super) fn slots_read(op: Op, mask: WriteMask, i: usize, options: &Options) -
 /// The components of every slot that a kernel reads when the textures have these shapes.
 pub(super) fn components_read(kernel: &Kernel, options: &Options) -> [WriteMask; SLOT_COUNT] {
     let mut read = [WriteMask::NONE; SLOT_COUNT];
-    // Backwards, so that it is known which coordinates are sampled when the step comes that computes them.
-    for step in kernel.steps.iter().rev() {
-        let mask = kept(kernel, &read, step);
+    for step in &kernel.steps {
+        let mask = kept(kernel, options, step);
         if mask.is_empty() && step.op != Op::Kill {
             continue;
         }
@@ -86,7 +85,7 @@ impl<'a> Body<'a> {
         for step in &kernel.steps {
             if step.op != Op::Kill {
                 let at = step.destination.index();
-                used[at] = used[at].or(kept(kernel, &read, step));
+                used[at] = used[at].or(kept(kernel, options, step));
             }
         }
         let mut widths = used.map(width_of);
@@ -335,11 +334,10 @@ impl<'a> Body<'a> {
         let mut parts = Vec::new();
         let mut outcomes = Vec::new();
         let kernel = self.stage.kernel;
-        let kept = |step: &&Step, read: &_| !kept(kernel, read, step).is_empty();
+        let options = self.options;
         for step in steps
             .iter()
-            .filter(|step| kept(step, &self.read))
-            .collect::<Vec<_>>()
+            .filter(|step| !kept(kernel, options, step).is_empty())
         {
             mask = mask.or(step.mask);
             parts.push(self.value(step).whole().finished(step.result));
@@ -365,7 +363,7 @@ impl<'a> Body<'a> {
             self.killing = true;
             return;
         }
-        let mask = kept(self.stage.kernel, &self.read, step);
+        let mask = kept(self.stage.kernel, self.options, step);
         if mask.is_empty() {
             return;
         }
@@ -524,17 +522,36 @@ pub(super) fn select(
     Expression::new(format!("{name}.{swizzle}"), count)
 }
 
-/// The components that a step writes and that are not lost: of coordinates those that are sampled, of outputs with one
-/// component that one.
-fn kept(kernel: &Kernel, read: &[WriteMask; SLOT_COUNT], step: &Step) -> WriteMask {
+/// The components that a step writes and that are not lost: of coordinates those that its instruction uses in the end,
+/// of outputs with one component that one.
+fn kept(kernel: &Kernel, options: &Options, step: &Step) -> WriteMask {
     match step.destination {
-        Slot::COORDINATES => step.mask.and(read[Slot::COORDINATES.index()]),
+        Slot::COORDINATES => step
+            .mask
+            .and(coordinates_used(kernel, options, step.origin)),
         Slot::FOG => step.mask.and(WriteMask::component(kernel.fog_component)),
         Slot::POINT_SIZE => step
             .mask
             .and(WriteMask::component(kernel.point_size_component)),
         _ => step.mask,
     }
+}
+
+/// The components of the coordinates that an instruction computes and then samples at or hands on.
+fn coordinates_used(kernel: &Kernel, options: &Options, origin: usize) -> WriteMask {
+    let computed = Place::Slot(Slot::COORDINATES);
+    let first = kernel.steps.partition_point(|step| step.origin < origin);
+    let own = kernel.steps[first..]
+        .iter()
+        .take_while(|step| step.origin == origin);
+    own.filter(|step| step.destination != Slot::COORDINATES)
+        .flat_map(|step| {
+            let sources = step.sources.iter().enumerate();
+            sources
+                .filter(|(_, s)| s.place == computed)
+                .map(|(i, s)| s.swizzle.reads(slots_read(step.op, step.mask, i, options)))
+        })
+        .fold(WriteMask::NONE, WriteMask::or)
 }
 
 /// Vectors that hold these components; a single x takes two, so that it can be named.
