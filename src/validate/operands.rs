@@ -130,17 +130,15 @@ fn check_destination(
         );
         return;
     }
-    let allowed = shape.files.contains(register.file);
-    // Of an a0 that could not stand here in any version O5 tells more than O4.
-    if (allowed || register.file != RegisterFile::Addr)
-        && !register_exists(listing, register, span, Code::O1, report)
-    {
-        return;
-    }
-    if allowed {
-        return;
-    }
     let opcode = line.instruction.opcode;
+    // Of an a0 that no version could have here O5 tells more than O4.
+    let misplaced = register.file == RegisterFile::Addr && opcode != Opcode::Mov;
+    if !misplaced && !register_exists(listing, register, span, Code::O1, report) {
+        return;
+    }
+    if shape.files.contains(register.file) {
+        return;
+    }
     let code = match (form.class, register.file) {
         (Class::Texture, _) => texture_operand(opcode, listing.version),
         (_, RegisterFile::Addr) => Code::O5,
@@ -209,7 +207,7 @@ fn check_source(
     if shape.modifiers == ModifierRule::Matrix {
         last.index = last.index.saturating_add(form.rows.saturating_sub(1));
     }
-    // Of an a0 that could not stand here in any version O3 tells more than O4.
+    // Of an a0 that no version could have here O3 tells more than O4.
     if register.file != RegisterFile::Addr
         && !register_exists(listing, last, span, Code::O1, report)
     {

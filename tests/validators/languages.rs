@@ -1,7 +1,7 @@
 //! The other languages through validators of their own.
 
 use super::tools::{Input, Tool, skipped};
-use super::translations;
+use super::translations::{self, Named};
 use texcrd::isa::ShaderKind;
 use texcrd::languages::{Language, write};
 
@@ -46,4 +46,47 @@ fn glslang_takes_the_glsl() {
         );
     };
     validator.accept_all("glsl", &written(Language::Glsl, ["vert", "frag"]));
+}
+
+/// Microsoft's own compiler is in no package of Debian, npm or PyPI; glslang reads HLSL too. It takes a tenth of a second
+/// for each, so it sees every eighth translation only.
+#[test]
+fn glslang_takes_the_hlsl() {
+    let whole = |named: &Named| write(&named.translation, Language::Hlsl);
+    for (stage, entry) in [("vert", "vs_main"), ("frag", "ps_main")] {
+        // It checks HLSL only on the way to SPIR-V.
+        let nowhere = if cfg!(windows) { "NUL" } else { "/dev/null" };
+        let arguments = ["-D", "-V", "-S", stage, "-e", entry, "-o", nowhere];
+        let Some(validator) = Tool::find("TEXCRD_GLSLANG", "glslangValidator", &arguments, 1)
+        else {
+            return skipped(
+                "no `glslangValidator` checks the HLSL",
+                "It is in Debian's glslang-tools.",
+            );
+        };
+        let has_stage = |named: &&Named| {
+            let reflection = &named.translation.reflection;
+            let stages = reflection.vertex.iter().chain(&reflection.pixel);
+            { stages }.any(|stage| stage.entry == entry)
+        };
+        let inputs: Vec<Input> = (translations::all().iter())
+            .filter(has_stage)
+            .step_by(8)
+            .map(|named| Input {
+                name: named.name.clone(),
+                extension: "hlsl",
+                content: whole(named).unwrap()[0].code.bytes().to_vec(),
+            })
+            .collect();
+        validator.accept_all(&format!("hlsl_{stage}"), &inputs);
+    }
+}
+
+/// Apple's compiler is for its own systems only: here it is only tested that there is something to compile.
+#[test]
+fn all_becomes_msl() {
+    for input in written(Language::Msl, ["metal"; 2]) {
+        let text = String::from_utf8(input.content).unwrap();
+        assert!(text.contains("#include <metal_stdlib>"), "{}", input.name);
+    }
 }

@@ -159,7 +159,7 @@ fn count() -> u64 {
 /// Every other shader has infinities and NaN among its constants.
 fn make(version: Version, seed: u64, textures: &Textures) -> (Generated, Listing) {
     let options = generate::Options {
-        comparable: seed % 2 == 0,
+        comparable: seed.is_multiple_of(2),
         ..generate::Options::new(version)
     };
     let made = generate::shader(&mut Random::new(seed), &options, textures);
