@@ -7,6 +7,7 @@ use super::layout::{Block, Field};
 use super::listing::Lines;
 use super::magnitude::{Magnitudes, Outcome};
 use super::number;
+use super::together;
 use super::{Options, Stage};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{ShaderKind, WriteMask};
@@ -315,39 +316,14 @@ impl<'a> Body<'a> {
     }
 
     fn instruction(&mut self, steps: &'a [Step], pending: &mut Vec<Pending<'a>>) {
-        let rows = |step: &&Step| matches!(step.op, Op::Dp3 | Op::Dp4) && step.mask.count() == 1;
-        let same = |a: &Step, b: &Step| a.destination == b.destination && a.result == b.result;
-        if let [first, _, ..] = steps
-            && steps.iter().all(|step| rows(&step) && same(step, first))
-        {
-            self.rows(steps);
-            return;
-        }
-        for step in steps {
-            self.step(step, pending);
-        }
-    }
-
-    /// The rows of a matrix macro in one assignment, so that all of them read before any of them writes.
-    fn rows(&mut self, steps: &'a [Step]) {
-        let mut mask = WriteMask::NONE;
-        let mut parts = Vec::new();
-        let mut outcomes = Vec::new();
-        let kernel = self.stage.kernel;
-        let options = self.options;
-        for step in steps
-            .iter()
-            .filter(|step| !kept(kernel, options, step).is_empty())
-        {
-            mask = mask.or(step.mask);
-            parts.push(self.value(step).whole().finished(step.result));
-            outcomes.push((step, self.magnitudes.outcome(step)));
-        }
-        if let Some((first, _)) = outcomes.first() {
-            self.assign(first.destination, mask, Value::Parts(parts));
-        }
-        for (step, outcome) in outcomes {
-            self.magnitudes.write(step, outcome);
+        let mut rest = steps;
+        while !rest.is_empty() {
+            let (own, others) = rest.split_at(together::count(rest).max(1));
+            match own {
+                [_, _, ..] if pending.is_empty() => self.together(own),
+                _ => own.iter().for_each(|step| self.step(step, pending)),
+            }
+            rest = others;
         }
     }
 
@@ -524,7 +500,7 @@ pub(super) fn select(
 
 /// The components that a step writes and that are not lost: of coordinates those that its instruction uses in the end,
 /// of outputs with one component that one.
-fn kept(kernel: &Kernel, options: &Options, step: &Step) -> WriteMask {
+pub(super) fn kept(kernel: &Kernel, options: &Options, step: &Step) -> WriteMask {
     match step.destination {
         Slot::COORDINATES => step
             .mask
