@@ -180,8 +180,7 @@ impl<'a> Lowering<'a> {
         let destination = instruction
             .destination
             .ok_or_else(|| format!("{} needs a destination", opcode.mnemonic()))?;
-        if destination.register.relative || !may_name(form, shape.files, destination.register.file)
-        {
+        if destination.register.relative || !shape.files.contains(destination.register.file) {
             return Err(format!(
                 "{} cannot have {} as destination",
                 opcode.mnemonic(),
@@ -312,7 +311,8 @@ impl<'a> Lowering<'a> {
             .ok_or_else(|| format!("{} has no {register}", self.version))
     }
 
-    /// A source as an operand.
+    /// A source as an operand. Every modifier but the divide modifiers has a meaning everywhere; whether the version
+    /// has it is the validator's business.
     pub(super) fn operand(&self, source: &Source) -> Result<Operand, String> {
         let register = source.register;
         let place = match register.file {
@@ -325,12 +325,9 @@ impl<'a> Lowering<'a> {
             }
             _ => Place::Slot(self.slot(register)?),
         };
-        let row = source.modifier.row();
-        if !row.arithmetic.and(row.coordinates).contains(self.version) {
-            return Err(format!(
-                "{} has no modifier {}{}",
-                self.version, row.prefix, row.suffix
-            ));
+        if is_divide(source.modifier) {
+            let suffix = source.modifier.row().suffix;
+            return Err(format!("{register}{suffix} is not divided here"));
         }
         Ok(Operand {
             place,
@@ -399,10 +396,14 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// Whether an operand has a meaning. Arithmetic on the coordinates of `ps.1.4` is against the rules and clear all the
-/// same.
+/// Whether a source has a meaning. Arithmetic that reads what it should not (coordinates in `ps.1.4`, colours in `bem`,
+/// a condition of `cnd` that is not in `r0`) is against the rules and clear all the same.
 fn may_name(form: &Form, files: FileSet, file: RegisterFile) -> bool {
-    files.contains(file) || (form.class == Class::Arithmetic && file == RegisterFile::Texture)
+    let holds_numbers = matches!(
+        file,
+        RegisterFile::Temp | RegisterFile::Input | RegisterFile::Const | RegisterFile::Texture
+    );
+    files.contains(file) || (form.class == Class::Arithmetic && form.rows == 0 && holds_numbers)
 }
 
 /// The components that a step reads of its source `i`.
@@ -461,6 +462,6 @@ pub(super) fn stage(index: usize) -> u8 {
 }
 
 /// The divide modifiers belong to coordinates; arithmetic has none of them.
-pub(super) fn is_divide(modifier: SourceModifier) -> bool {
+fn is_divide(modifier: SourceModifier) -> bool {
     matches!(modifier, SourceModifier::Dz | SourceModifier::Dw)
 }

@@ -1,6 +1,6 @@
 //! Lowering of the texture instructions.
 
-use super::lower::{Lowering, Projection, is_divide, stage};
+use super::lower::{Lowering, Projection, stage};
 use super::{Op, Operand, Place, Slot};
 use crate::isa::{Opcode, SourceModifier, Swizzle, Version, WriteMask};
 use crate::program::{Instruction, Source};
@@ -179,16 +179,16 @@ fn projected(lowering: &mut Lowering<'_>, m: usize, coordinates: Slot) -> Operan
 
 /// The source of `texld` or `texcrd` after its divide; the division sees the register, not the selector.
 fn divided(lowering: &mut Lowering<'_>, source: &Source) -> Result<Operand, String> {
-    let mut operand = lowering.operand(source)?;
-    if !is_divide(operand.modifier) {
-        return Ok(operand);
-    }
-    let op = match operand.modifier {
+    let op = match source.modifier {
         SourceModifier::Dz => Op::DivideZ,
-        _ => Op::DivideW,
+        SourceModifier::Dw => Op::DivideW,
+        _ => return lowering.operand(source),
     };
-    operand.modifier = SourceModifier::None;
-    operand.swizzle = Swizzle::IDENTITY;
+    let operand = lowering.operand(&Source {
+        modifier: SourceModifier::None,
+        swizzle: Swizzle::IDENTITY,
+        ..*source
+    })?;
     lowering.push(op, Slot::COORDINATES, WriteMask::XYZ, vec![operand]);
     Ok(Operand::slot(Slot::COORDINATES))
 }

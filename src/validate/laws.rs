@@ -38,6 +38,7 @@ pub(super) enum Code {
     O5Unwritten,
     O6,
     O8,
+    O8Written,
     O9,
     O10,
     O11,
@@ -46,6 +47,7 @@ pub(super) enum Code {
     O12NoMask,
     O13,
     O14,
+    O14Register,
     O15,
     O16,
     O17,
@@ -60,6 +62,7 @@ pub(super) enum Code {
     O26,
     O26Beyond,
     M1,
+    M1Divide,
     M2,
     M3,
     M5,
@@ -71,6 +74,7 @@ pub(super) enum Code {
     M11,
     M11Phases,
     M12,
+    M12Arithmetic,
     M13,
     R1,
     R2,
@@ -157,7 +161,7 @@ const fn case(code: Code, of: Code, severity: Severities) -> Law {
 /// M4, D1 to D5), what another rule says (O7 by O2, B11 by B2 to B5, T2 by T1, C8 by R11), what the number of
 /// operands or registers rules out (R3, R5, R8, R9, R10), and what is allowed or only known beside the shader (I6, I7).
 #[rustfmt::skip]
-static LAWS: [Law; 95] = [
+static LAWS: [Law; 99] = [
     law(Code::B1, "B1", "A vertex shader has at most 128 instruction slots, macros counted as they expand.", MEANT),
     law(Code::B2, "B2", "ps.1.0 to ps.1.3 take at most 4 texture instructions.", MEANT),
     law(Code::B3, "B3", "ps.1.0 to ps.1.3 take at most 8 arithmetic slots; a pair counts once.", MEANT),
@@ -187,6 +191,7 @@ static LAWS: [Law; 95] = [
     case(Code::O5Unwritten, Code::O5, MEANT),
     law(Code::O6, "O6", "Only c# as a source is addressed relative to a0.x.", REFUSED),
     law(Code::O8, "O8", "Arithmetic of ps.1.4 does not name t#.", MEANT),
+    case(Code::O8Written, Code::O8, REFUSED),
     law(Code::O9, "O9", "ps.1.4 reads v# only after phase.", MEANT),
     law(Code::O10, "O10", "Texture instructions of ps.1.0 to ps.1.3 name t#; the last operand of texm3x3spec is c#.", REFUSED),
     law(Code::O11, "O11", "texld writes r# and reads t#, after phase also r#; texkill of ps.1.4 names t# or r#.", REFUSED),
@@ -195,6 +200,7 @@ static LAWS: [Law; 95] = [
     case(Code::O12NoMask, Code::O12, ADVICE),
     law(Code::O13, "O13", "Of the texture instructions only texm3x3spec reads a constant.", REFUSED),
     law(Code::O14, "O14", "texdepth takes r5, after phase.", MEANT),
+    case(Code::O14Register, Code::O14, REFUSED),
     law(Code::O15, "O15", "The first source of cnd is r0.a in ps.1.0 to ps.1.3.", MEANT),
     law(Code::O16, "O16", "cnd writes .rgba, .rgb or .a in ps.1.0 to ps.1.3.", MEANT),
     law(Code::O17, "O17", "cmp writes a register that it does not read in ps.1.2 and ps.1.3.", MEANT),
@@ -209,6 +215,7 @@ static LAWS: [Law; 95] = [
     law(Code::O26, "O26", "A vertex shader counts on 96 constants, c0 to c95.", MEANT),
     case(Code::O26Beyond, Code::O26, REFUSED),
     law(Code::M1, "M1", "A modifier exists in the version of the shader.", MEANT),
+    case(Code::M1Divide, Code::M1, REFUSED),
     law(Code::M2, "M2", "Only arithmetic instructions take _x2, _x4, _x8, _d2, _d4, _d8 and _sat.", MEANT),
     law(Code::M3, "M3", "Texture instructions take only the source modifiers that are theirs.", MEANT),
     law(Code::M5, "M5", "Constants take no modifier in ps.1.4.", MEANT),
@@ -220,6 +227,7 @@ static LAWS: [Law; 95] = [
     law(Code::M11, "M11", "ps.1.4 reads each t# as .xyz or as .xyw, not both.", MEANT),
     case(Code::M11Phases, Code::M11, ADVICE),
     law(Code::M12, "M12", "_dz divides r# in texld; _dw divides t#, with .xyw.", MEANT),
+    case(Code::M12Arithmetic, Code::M12, REFUSED),
     law(Code::M13, "M13", "Texture instructions take no write mask, texcrd apart.", MEANT),
     law(Code::R1, "R1", "An instruction of a vertex shader reads one c#.", MEANT),
     law(Code::R2, "R2", "An instruction of a vertex shader reads one v#.", MEANT),

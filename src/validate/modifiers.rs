@@ -16,7 +16,8 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
             write_mask(listing, line, form, report);
             for (i, source) in line.instruction.sources.iter().enumerate() {
                 if let Some(shape) = form.sources.get(i)
-                    && !is_condition_of_cnd(listing.version, line, i)
+                    // What may be asked by cnd is O15, but a division would have no meaning at all.
+                    && (!is_condition_of_cnd(listing.version, line, i) || divides(source.modifier))
                 {
                     source_modifier(listing, line, form, shape.modifiers, source, report);
                     selector(listing, line, form, source, report);
@@ -156,11 +157,11 @@ fn source_modifier(
     if modifier == SourceModifier::None {
         return;
     }
-    if rule == ModifierRule::Coordinates && divides(modifier) {
-        division(line, source, report);
+    let version = listing.version;
+    if divides(modifier) {
+        division(version, line, source, report);
         return;
     }
-    let version = listing.version;
     let text = written(modifier);
     if form.class == Class::Texture {
         let takes = match rule {
@@ -180,10 +181,7 @@ fn source_modifier(
         return;
     }
     let row = modifier.row();
-    if divides(modifier) && version == Version::Ps14 {
-        division(line, source, report);
-    } else if !row.arithmetic.contains(version) {
-        let versions = row.arithmetic.and(row.coordinates);
+    if !row.arithmetic.contains(version) {
         report.breach(
             Code::M1,
             source.span,
@@ -192,7 +190,7 @@ fn source_modifier(
                 // The minus sign is not what is missing.
                 suffix => format!("{version} has no `{suffix}` on a source"),
             },
-            format!("only {} has it", version_names(versions)),
+            format!("only {} has it", version_names(row.arithmetic)),
         );
     } else if source.register.file == RegisterFile::Const {
         on_a_constant(listing, source, report);
@@ -215,9 +213,19 @@ fn texture_modifiers(rule: ModifierRule) -> String {
     }
 }
 
-/// M12.
-fn division(line: &Line, source: &Source, report: &mut Report) {
+/// M12, and M1 where the version cannot divide. Nothing but the coordinates of a texture instruction is divided.
+fn division(version: Version, line: &Line, source: &Source, report: &mut Report) {
     let modifier = source.modifier;
+    let row = modifier.row();
+    if !row.coordinates.contains(version) {
+        report.breach(
+            Code::M1Divide,
+            source.span,
+            format!("{version} has no `{}` on a source", row.suffix),
+            format!("only {} has it", version_names(row.coordinates)),
+        );
+        return;
+    }
     let file = source.register.file;
     let fits = match modifier {
         SourceModifier::Dz => {
@@ -243,8 +251,12 @@ fn division(line: &Line, source: &Source, report: &mut Report) {
             source.register
         ),
     };
+    let code = match line.is_texture() {
+        true => Code::M12,
+        false => Code::M12Arithmetic,
+    };
     report.breach(
-        Code::M12,
+        code,
         source.span,
         message,
         "texld reads r#_dz; texld and texcrd read t#_dw.xyw",

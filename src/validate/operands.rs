@@ -130,17 +130,19 @@ fn check_destination(
         );
         return;
     }
-    if !register_exists(listing, register, span, Code::O1, report) {
+    let opcode = line.instruction.opcode;
+    // Of an a0 that no version could have here O5 tells more than O4.
+    let misplaced = register.file == RegisterFile::Addr && opcode != Opcode::Mov;
+    if !misplaced && !register_exists(listing, register, span, Code::O1, report) {
         return;
     }
     if shape.files.contains(register.file) {
         return;
     }
-    let opcode = line.instruction.opcode;
     let code = match (form.class, register.file) {
         (Class::Texture, _) => texture_operand(opcode, listing.version),
         (_, RegisterFile::Addr) => Code::O5,
-        (_, RegisterFile::Texture) => Code::O8,
+        (_, RegisterFile::Texture) => Code::O8Written,
         _ => Code::O2,
     };
     let files: Vec<String> = shape
@@ -179,7 +181,7 @@ fn only_read(file: RegisterFile) -> &'static str {
 fn texture_operand(opcode: Opcode, version: Version) -> Code {
     match opcode {
         Opcode::TexCrd => Code::O12,
-        Opcode::TexDepth => Code::O14,
+        Opcode::TexDepth => Code::O14Register,
         _ if version == Version::Ps14 => Code::O11,
         _ => Code::O10,
     }
@@ -201,15 +203,18 @@ fn check_source(
         return;
     }
     let opcode = line.instruction.opcode;
-    if is_condition_of_cnd(listing.version, line, i) {
-        return; // O15 says what stands there.
-    }
     let mut last = register;
     if shape.modifiers == ModifierRule::Matrix {
         last.index = last.index.saturating_add(form.rows.saturating_sub(1));
     }
-    if !register_exists(listing, last, span, Code::O1, report) {
+    // Of an a0 that no version could have here O3 tells more than O4.
+    if register.file != RegisterFile::Addr
+        && !register_exists(listing, last, span, Code::O1, report)
+    {
         return;
+    }
+    if is_condition_of_cnd(listing.version, line, i) {
+        return; // O15 says what stands there.
     }
     if !shape.files.contains(register.file) {
         let (code, help) = wrong_source(listing, form, opcode, register.file);

@@ -7,6 +7,7 @@ use super::layout::{Block, Field};
 use super::listing::Lines;
 use super::magnitude::{Magnitudes, Outcome};
 use super::number;
+use super::together;
 use super::{Observed, Options, Stage};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{ShaderKind, WriteMask};
@@ -70,9 +71,8 @@ pub(super) fn components_read(kernel: &Kernel, options: &Options) -> [WriteMask;
     {
         read[picture.slot.index()] = WriteMask::ALL;
     }
-    // Backwards, so that it is known which coordinates are sampled when the step comes that computes them.
-    for step in kernel.steps.iter().rev() {
-        let mask = kept(kernel, &read, step);
+    for step in &kernel.steps {
+        let mask = kept(kernel, options, step);
         if mask.is_empty() && step.op != Op::Kill {
             continue;
         }
@@ -98,7 +98,7 @@ impl<'a> Body<'a> {
         for step in &kernel.steps {
             if step.op != Op::Kill {
                 let at = step.destination.index();
-                used[at] = used[at].or(kept(kernel, &read, step));
+                used[at] = used[at].or(kept(kernel, options, step));
             }
         }
         let mut widths = used.map(width_of);
@@ -352,40 +352,14 @@ impl<'a> Body<'a> {
     }
 
     fn instruction(&mut self, steps: &'a [Step], pending: &mut Vec<Pending<'a>>) {
-        let rows = |step: &&Step| matches!(step.op, Op::Dp3 | Op::Dp4) && step.mask.count() == 1;
-        let same = |a: &Step, b: &Step| a.destination == b.destination && a.result == b.result;
-        if let [first, _, ..] = steps
-            && steps.iter().all(|step| rows(&step) && same(step, first))
-        {
-            self.rows(steps);
-            return;
-        }
-        for step in steps {
-            self.step(step, pending);
-        }
-    }
-
-    /// The rows of a matrix macro in one assignment, so that all of them read before any of them writes.
-    fn rows(&mut self, steps: &'a [Step]) {
-        let mut mask = WriteMask::NONE;
-        let mut parts = Vec::new();
-        let mut outcomes = Vec::new();
-        let kernel = self.stage.kernel;
-        let kept = |step: &&Step, read: &_| !kept(kernel, read, step).is_empty();
-        for step in steps
-            .iter()
-            .filter(|step| kept(step, &self.read))
-            .collect::<Vec<_>>()
-        {
-            mask = mask.or(step.mask);
-            parts.push(self.value(step).whole().finished(step.result));
-            outcomes.push((step, self.magnitudes.outcome(step)));
-        }
-        if let Some((first, _)) = outcomes.first() {
-            self.assign(first.destination, mask, Value::Parts(parts));
-        }
-        for (step, outcome) in outcomes {
-            self.magnitudes.write(step, outcome);
+        let mut rest = steps;
+        while !rest.is_empty() {
+            let (own, others) = rest.split_at(together::count(rest).max(1));
+            match own {
+                [_, _, ..] if pending.is_empty() => self.together(own),
+                _ => own.iter().for_each(|step| self.step(step, pending)),
+            }
+            rest = others;
         }
     }
 
@@ -403,7 +377,7 @@ impl<'a> Body<'a> {
             self.killing = true;
             return;
         }
-        let mask = kept(self.stage.kernel, &self.read, step);
+        let mask = kept(self.stage.kernel, self.options, step);
         if mask.is_empty() {
             return;
         }
@@ -561,17 +535,36 @@ pub(super) fn select(
     Expression::new(name, named.len())
 }
 
-/// The components that a step writes and that are not lost: of coordinates those that are sampled, of outputs with one
-/// component that one.
-fn kept(kernel: &Kernel, read: &[WriteMask; SLOT_COUNT], step: &Step) -> WriteMask {
+/// The components that a step writes and that are not lost: of coordinates those that its instruction uses in the end,
+/// of outputs with one component that one.
+pub(super) fn kept(kernel: &Kernel, options: &Options, step: &Step) -> WriteMask {
     match step.destination {
-        Slot::COORDINATES => step.mask.and(read[Slot::COORDINATES.index()]),
+        Slot::COORDINATES => step
+            .mask
+            .and(coordinates_used(kernel, options, step.origin)),
         Slot::FOG => step.mask.and(WriteMask::component(kernel.fog_component)),
         Slot::POINT_SIZE => step
             .mask
             .and(WriteMask::component(kernel.point_size_component)),
         _ => step.mask,
     }
+}
+
+/// The components of the coordinates that an instruction computes and then samples at or hands on.
+fn coordinates_used(kernel: &Kernel, options: &Options, origin: usize) -> WriteMask {
+    let computed = Place::Slot(Slot::COORDINATES);
+    let first = kernel.steps.partition_point(|step| step.origin < origin);
+    let own = kernel.steps[first..]
+        .iter()
+        .take_while(|step| step.origin == origin);
+    own.filter(|step| step.destination != Slot::COORDINATES)
+        .flat_map(|step| {
+            let sources = step.sources.iter().enumerate();
+            sources
+                .filter(|(_, s)| s.place == computed)
+                .map(|(i, s)| s.swizzle.reads(slots_read(step.op, step.mask, i, options)))
+        })
+        .fold(WriteMask::NONE, WriteMask::or)
 }
 
 /// Vectors that hold these components; a single x takes two, so that it can be named.

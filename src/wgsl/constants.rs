@@ -68,11 +68,14 @@ impl Body<'_> {
         let last = (self.stage.program.definitions())
             .filter(|d| d.register.index == index)
             .last();
-        if self.constant(index) != Constant::Defined
-            || !self.names_constant(index)
-            || last.is_none_or(|last| last.span != def.span)
+        if last.is_none_or(|last| last.span != def.span)
+            || !(self.names_constant(index) || self.relative)
         {
             return;
+        }
+        if self.constant(index) != Constant::Defined {
+            let where_it_is = "is in the uniform block: whoever fills that puts this value there.";
+            return self.push(format!("// c{index} {where_it_is}"));
         }
         let value = bound_value(self.kind(), def.value);
         let line = match number::vector(value) {

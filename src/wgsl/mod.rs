@@ -59,6 +59,7 @@ mod pixel;
 mod reflection;
 #[cfg(test)]
 mod tests;
+mod together;
 mod varyings;
 mod vertex;
 

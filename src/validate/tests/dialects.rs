@@ -15,14 +15,27 @@ S9  W E W  vs.1.1 | mov oPos.xyz, v0
 S10 - E -  vs.1.1 | mov oPos, v0 | mov oT1, v7
 S14 E E E  ps.1.1 | cmp r0, v0, c0, c1
 O1  E E E  ps.1.1 | mov r0, v2
+O4  E E W  vs.1.0 | mov oPos, v0 | mov a0.x, v1.x
+O3  E E E  vs.1.0 | mov oPos, v0 | add r0, v0, a0.x
+O5  E E E  vs.1.0 | mov oPos, v0 | exp a0.x, v0.x
+O8  E E W  ps.1.4 | mul r0, c0, t0
+O8  E E E  ps.1.4 | mov t0, c0 | mov r0, c0
 O12 W W W  ps.1.4 | texcrd r1, t0 | mov r0, c0
 O12 E E E  ps.1.4 | texcrd r1.g, t0 | mov r0, c0
+O14 E E W  ps.1.4 | texcrd r0.rgb, t0 | phase | texdepth r0 | mov r0, c0
+O14 E E E  ps.1.4 | phase | texdepth t0 | mov r0, c0
+O15 E E W  ps.1.1 | mov r0, v0 | cnd r0, v0, v0, v1
+O1  E E E  ps.1.1 | mov r0, v0 | cnd r0, r5, v0, v1
 O19 E E W  vs.1.1 | m4x4 oPos, v0, c0.wzyx
 O19 W W W  vs.1.1 | mov oPos, v0 | m3x3 r0, v0, c0
 O20 W E W  vs.1.1 | mov r0, v0 | m4x4 r0, r0, c0 | mov oPos, r0
 O21 W E W  vs.1.1 | mov oPos, v0 | rsq r0, v0
 O26 E E W  vs.1.1 | mov oPos, c255
 O26 E E E  vs.1.1 | mov oPos, c256
+M1  E E W  ps.1.1 | mul r0, v0, v0_x2
+M1  E E E  ps.1.1 | mul r0, v0, v0_dz
+M12 E E W  ps.1.4 | texld r0, t0_dz
+M12 E E E  ps.1.4 | mov r1, c0 | mov r0, r1_dz
 M6  W E W  ps.1.1 | mov r0, -c0
 M11 E E W  ps.1.4 | texld r0, t0 | texld r1, t0.xyw
 M11 W W W  ps.1.4 | texld r0, t0 | phase | texld r0, t0.xyw

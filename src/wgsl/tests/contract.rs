@@ -328,3 +328,25 @@ fn wild_inputs_are_guarded() {
         source(true)
     );
 }
+
+/// A stage samples at as many components as its own texture has, whatever the others are.
+#[test]
+fn textures_of_different_shapes_pass_what_each_needs() {
+    let vs = Shader::new("vs.1.1\nmov oPos, v0\nmov oT1, v1\nmov oT2, v2\n");
+    let ps = Shader::new("ps.1.1\ntex t0\ntexbem t1, t0\ntexbem t2, t0\nadd r0, t1, t2\n");
+    let kinds = [TextureKind::Cube, TextureKind::Texture2D].map(Some);
+    let passed = |first, second| -> Vec<(u32, usize)> {
+        let mut options = Options::default();
+        options.stages[1] = StageOptions::with_texture(first);
+        options.stages[2] = StageOptions::with_texture(second);
+        let varyings = valid_pair(&vs, &ps, &options).reflection.varyings;
+        { varyings.iter() }
+            .filter(|varying| varying.location > 0)
+            .map(|varying| (varying.location, varying.components))
+            .collect()
+    };
+    assert_eq!(passed(kinds[0], kinds[1]), [(1, 3), (2, 2)]);
+    assert_eq!(passed(kinds[1], kinds[0]), [(1, 2), (2, 3)]);
+    assert_eq!(passed(kinds[0], None), [(1, 3)]);
+    assert_eq!(passed(None, kinds[1]), [(2, 2)]);
+}

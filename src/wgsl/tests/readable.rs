@@ -216,3 +216,38 @@ fn discards_come_last() {
         ]
     );
 }
+
+#[test]
+fn what_an_instruction_writes_in_parts_is_one_assignment() {
+    assert_eq!(
+        statements("ps.1.1\ntexcoord t0\nmov r0, t0\n"),
+        [
+            "t0 = vec4f(saturate(in.t0.xyz), 1.0);",
+            "r0 = t0;",
+            "return r0;",
+        ]
+    );
+    let lookup = "ps.1.2\ntex t0\ntexdp3tex t1, t0\nmov r0, t1\n";
+    assert_eq!(
+        statements(lookup)[1],
+        "coordinates = vec2f(dot(in.t1.xyz, t0.rgb), 0.0);"
+    );
+    let reflection =
+        "ps.1.1\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3vspec t3, t0\nmov r0, t3\n";
+    assert_eq!(
+        statements(reflection)[4],
+        "eye = vec3f(in.t1.w, in.t2.w, in.t3.w);"
+    );
+}
+
+#[test]
+fn a_definition_that_is_left_to_others_says_so() {
+    let listing = "vs.1.1\ndef c9, 1, 2, 3, 4\nmov a0.x, v1.x\nmov oPos, c[a0.x]\n";
+    let source = valid(listing, &Options::default()).source;
+    let (_, rest) = source.split_once("// 2: def c9, 1, 2, 3, 4\n").unwrap();
+    let next = rest.lines().next().unwrap().trim();
+    assert!(
+        next.starts_with("// c9 is in the uniform block"),
+        "{source}"
+    );
+}
