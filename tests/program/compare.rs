@@ -1,17 +1,8 @@
 //! `compare`, `adapters`, `run --on gpu`: what needs a GPU, or a software adapter.
 
-use super::{Ran, folder, texcrd};
+use super::{Ran, folder, gpu_is_off, texcrd};
 use serde_json::Value;
 use std::fs;
-
-/// Whether there are to be tests with an adapter. Without one the program fails, and says what to install.
-fn gpu() -> bool {
-    let off = std::env::var("TEXCRD_GPU").is_ok_and(|value| value == "off");
-    if off {
-        eprintln!("SKIPPED: TEXCRD_GPU=off");
-    }
-    !off
-}
 
 /// Two rectangles of one size at depths 2⁻¹⁰ and 2⁻¹⁰ + 2⁻¹⁷, red and blue; the second is moved nearer by as many steps as
 /// are given. A step is 1/65535 of the depth range on the CPU, so that two bring it to the front. On a GPU with a depth
@@ -51,7 +42,7 @@ fn json(arguments: &[&str]) -> (i32, Value) {
 
 #[test]
 fn equal_pictures() {
-    if !gpu() {
+    if gpu_is_off() {
         return;
     }
     let scene = biased("compare_equal", 0);
@@ -91,7 +82,7 @@ fn equal_pictures() {
 /// What differs is said to come after the shader.
 #[test]
 fn different_pictures() {
-    if !gpu() {
+    if gpu_is_off() {
         return;
     }
     let scene = biased("compare_different", 2);
@@ -155,7 +146,7 @@ fn different_pictures() {
 /// paths see that of the CPU. It is a difference all the same.
 #[test]
 fn render_targets_are_compared_by_themselves() {
-    if !gpu() {
+    if gpu_is_off() {
         return;
     }
     let scene = biased("compare_target", 2);
@@ -226,7 +217,7 @@ fn what_compare_refuses() {
 
 #[test]
 fn the_adapters() {
-    if !gpu() {
+    if gpu_is_off() {
         return;
     }
     let (status, list) = json(&["adapters", "--format", "json"]);
@@ -264,7 +255,7 @@ fn the_adapters() {
 /// c1 is blue, and the picture of c0's draw after its first line shows nothing yet.
 #[test]
 fn registers_on_the_gpu() {
-    if !gpu() {
+    if gpu_is_off() {
         return;
     }
     let scene = biased("run_gpu_show", 0);

@@ -60,3 +60,12 @@ fn folder(test: &str) -> PathBuf {
     std::fs::create_dir_all(&folder).expect("the folder can be made");
     folder
 }
+
+/// Whether tests with a GPU are switched off, which is said.
+fn gpu_is_off() -> bool {
+    let off = std::env::var("TEXCRD_GPU").is_ok_and(|value| value == "off");
+    if off {
+        eprintln!("SKIPPED: TEXCRD_GPU=off");
+    }
+    off
+}

@@ -1,7 +1,7 @@
 //! `test`: shader unit tests as people run them.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
-use super::{folder, texcrd, texcrd_with_input};
+use super::{folder, gpu_is_off, texcrd, texcrd_with_input};
 use serde_json::Value;
 use std::fs;
 
@@ -126,15 +126,6 @@ fn what_cannot_be_read_is_no_failure_of_a_case() {
     let ran = texcrd(&["test", "-", "--adapter", "0"]);
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("--on gpu or --on both"), "{}", ran.err);
-}
-
-/// Whether tests with a GPU are switched off, which is said.
-fn gpu_is_off() -> bool {
-    let off = std::env::var("TEXCRD_GPU").is_ok_and(|value| value == "off");
-    if off {
-        eprintln!("SKIPPED: TEXCRD_GPU=off");
-    }
-    off
 }
 
 #[test]
