@@ -20,7 +20,7 @@
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
 //! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
-//! `invocations` runs a pixel shader alone, for tests of arithmetic.
+//! `invocations` runs a pixel shader alone, for tests of arithmetic, `programs` many shaders in one pipeline.
 
 mod buffers;
 mod device;
@@ -29,6 +29,7 @@ mod error;
 mod invocations;
 mod picture;
 mod pipeline;
+mod programs;
 mod renderer;
 mod state;
 mod texture;
@@ -40,6 +41,7 @@ pub use differences::{Differences, WorstPixel};
 pub use error::GpuError;
 pub use invocations::{PixelInput, shade_pixels};
 pub use pipeline::bind_group_layouts;
+pub use programs::{Batch, Program, Results};
 pub use renderer::Renderer;
 pub use state::{FixedState, fixed_state};
 pub use uniform::{StageUniforms, Uniforms};

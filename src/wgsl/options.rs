@@ -27,6 +27,9 @@ pub struct Options {
     /// Whether dot products are written out as products and sums, so that their order is that of the specification;
     /// else they are the `dot` of WGSL, which leaves the order open.
     pub exact_dots: bool,
+    /// Whether level 0 of a texture is read whatever its coordinates do from pixel to pixel: exact for textures of one
+    /// level. Such a translation may sample where WGSL allows no derivatives: in branches, and beyond fragment shaders.
+    pub level_zero: bool,
     /// Name of the vertex entry point.
     pub vertex_entry: String,
     /// Name of the pixel entry point.
@@ -45,6 +48,7 @@ impl Default for Options {
             points: Points::None,
             clip_planes: 0,
             exact_dots: false,
+            level_zero: false,
             vertex_entry: "vs_main".into(),
             pixel_entry: "ps_main".into(),
         }
