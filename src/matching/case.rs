@@ -76,7 +76,8 @@ fn invocation_text(text: &mut String, mismatch: &Mismatch, invocation: usize) {
         return;
     }
     for outcome in &generated.outcomes {
-        let value = outcome.values[invocation];
+        let value: [f32; 4] =
+            std::array::from_fn(|component| Subject::expected(outcome, invocation, component));
         let last = outcome.mask.components().last().unwrap_or(0);
         let (name, number) = match outcome.slot {
             Slot::DEPTH => ("depth".to_owned(), Some(value[0])),

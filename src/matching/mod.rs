@@ -16,7 +16,7 @@ mod tests;
 
 pub use case::{case_text, describe};
 pub use coverage::{Coverage, Group};
-pub use subject::{Change, Comparison, Difference, Subject, compare};
+pub use subject::{Change, Comparison, Difference, Subject, compare, run_together};
 
 use crate::generate::{Precision, Textures};
 use crate::gpu::{Device, GpuError};

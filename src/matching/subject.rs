@@ -152,8 +152,8 @@ impl Subject {
         bind_constants(kernel, &self.generated.constants)
     }
 
-    /// What the interpreter has of an outcome, as the rasterizer takes it: colours and fog from 0 to 1.
-    fn expected(outcome: &Outcome, invocation: usize, component: usize) -> f32 {
+    /// What the interpreter has of one component of an outcome, as the rasterizer takes it: colours and fog from 0 to 1.
+    pub(super) fn expected(outcome: &Outcome, invocation: usize, component: usize) -> f32 {
         let value = outcome.values[invocation][component];
         let clamped = (0..2).filter_map(Slot::color_output).chain([Slot::FOG]);
         match clamped.into_iter().any(|slot| slot == outcome.slot) {
@@ -163,7 +163,7 @@ impl Subject {
     }
 
     /// Compares what the GPU left behind with what the interpreter did.
-    fn compare(&self, results: &Results) -> Comparison {
+    pub fn compare(&self, results: &Results) -> Comparison {
         let mut comparison = Comparison::default();
         for invocation in 0..INVOCATIONS {
             let cpu = self.generated.killed[invocation];
@@ -242,6 +242,37 @@ pub fn compare(
     textures: &Textures,
     change: Option<Change<'_>>,
 ) -> Result<Vec<Comparison>, MatchError> {
+    match run_together(subjects, textures, change, &|batch| batch.run(device)) {
+        Ok(results) => Ok((subjects.iter().zip(&results))
+            .map(|(subject, results)| subject.compare(results))
+            .collect()),
+        Err(MatchError::Gpu(GpuError::Device(why))) => match subjects {
+            [_] => Ok(vec![Comparison {
+                differences: vec![Difference::Refused(why)],
+                ..Comparison::default()
+            }]),
+            _ => {
+                let alone =
+                    |subject| compare(device, std::slice::from_ref(subject), textures, change);
+                let all = subjects.iter().map(alone);
+                let all = all.collect::<Result<Vec<_>, _>>()?;
+                Ok(all.into_iter().flatten().collect())
+            }
+        },
+        Err(error) => Err(error),
+    }
+}
+
+/// Puts shaders into one batch and has it run; gives what each left behind.
+///
+/// # Errors
+/// Those of `run`, and [`MatchError`] for what cannot be translated.
+pub fn run_together(
+    subjects: &[Subject],
+    textures: &Textures,
+    change: Option<Change<'_>>,
+    run: &dyn Fn(&Batch<'_>) -> Result<Vec<Results>, GpuError>,
+) -> Result<Vec<Results>, MatchError> {
     let translated = subjects.iter().map(|subject| subject.translated(change));
     let translated = translated.collect::<Result<Vec<_>, _>>()?;
     let state = RenderState::default();
@@ -250,24 +281,7 @@ pub fn compare(
             program(subject, translation, constants, &state, textures)
         })
         .collect();
-    match Batch::new(&programs, INVOCATIONS).run(device) {
-        Ok(results) => Ok((subjects.iter().zip(&results))
-            .map(|(subject, results)| subject.compare(results))
-            .collect()),
-        Err(GpuError::Device(why)) => match subjects {
-            [_] => Ok(vec![Comparison {
-                differences: vec![Difference::Refused(why)],
-                ..Comparison::default()
-            }]),
-            _ => {
-                let alone =
-                    |subject| compare(device, std::slice::from_ref(subject), textures, change);
-                let all = subjects.iter().map(alone).collect::<Result<Vec<_>, _>>()?;
-                Ok(all.into_iter().flatten().collect())
-            }
-        },
-        Err(error) => Err(MatchError::Gpu(error)),
-    }
+    run(&Batch::new(&programs, INVOCATIONS)).map_err(MatchError::Gpu)
 }
 
 /// A shader as a batch takes it.

@@ -103,7 +103,7 @@ fn everything_that_is_possible_is_reached() {
     let textures = Textures::new().unwrap();
     for version in Version::all() {
         let mut coverage = Coverage::default();
-        for seed in 0..2500 {
+        for seed in 0..1500 {
             let precision = Precision::default();
             let subject = Subject::new(version, seed, precision, &textures);
             coverage.count(&subject.generated, &textures);

@@ -4,7 +4,9 @@
 #![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 mod arithmetic;
+mod exact;
 mod frames;
+mod matching;
 
 use texcrd::gpu::Device;
 
