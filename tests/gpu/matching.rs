@@ -89,6 +89,7 @@ fn another_instruction_is_found() {
 
 #[test]
 fn another_modifier_is_found() {
+    // Constants take no modifiers: something has to be loaded first, and what is loaded fills three components.
     is_found(Version::Ps14, "_bias", "_bx2", 3);
 }
 
@@ -99,8 +100,8 @@ fn another_component_is_found() {
 
 #[test]
 fn another_texture_instruction_is_found() {
-    // It needs a sample to begin with, and something must read its own.
-    is_found(Version::Ps12, "texreg2ar", "texreg2gb", 3);
+    // What is loaded, and what takes it to r0.
+    is_found(Version::Ps12, "texcoord ", "tex ", 2);
 }
 
 #[test]

@@ -164,7 +164,9 @@ impl<'a> Batch<'a> {
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: depth,
                 depth_write_enabled: Some(false),
-                depth_compare: Some(wgpu::CompareFunction::Always),
+                // Every pixel passes: depth 0 over 1. With a test there is one way for a pixel to be drawn; without any, Mesa's
+                // software adapter compiles the shader a second time, for tiles that a primitive fills.
+                depth_compare: Some(wgpu::CompareFunction::Less),
                 stencil: Default::default(),
                 bias: Default::default(),
             }),

@@ -92,3 +92,96 @@ pub(super) fn before_return(function: &str, statement: &str) -> String {
     let (before, last) = function.split_at(at);
     format!("{before}    {statement}\n{last}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOURCE: &str = "\
+// ps.1.1 a.psh, translated by texcrd.
+//
+// What binds where:
+
+struct PixelUniforms {
+    c: array<vec4f, 2>, // c0, c1, …
+}
+
+@group(0) @binding(1) var<uniform> ps: PixelUniforms;
+@group(1) @binding(0) var texture0: texture_2d<f32>;
+
+struct Varyings {
+    @location(0) t0: vec4f,
+}
+
+// a + b.
+fn helper(a: f32) -> f32 {
+    return a;
+}
+
+@fragment
+fn ps_main(in: Varyings) -> @location(0) vec4f {
+    // 1: ps.1.1, with ps and texture0 in a comment
+    let c1 = clamp(ps.c[1], vec4f(-1.0), vec4f(1.0));
+
+    let texture0_too = in.ps;
+    if killed {
+        discard;
+    }
+    return r0;
+}
+";
+
+    #[test]
+    fn items_are_what_stands_at_the_top() {
+        let starts: Vec<String> = items(SOURCE)
+            .iter()
+            .map(|item| item.lines().next().unwrap_or_default().to_owned())
+            .collect();
+        assert_eq!(
+            starts,
+            [
+                "struct PixelUniforms {",
+                "@group(0) @binding(1) var<uniform> ps: PixelUniforms;",
+                "@group(1) @binding(0) var texture0: texture_2d<f32>;",
+                "struct Varyings {",
+                "fn helper(a: f32) -> f32 {",
+                "@fragment",
+            ]
+        );
+    }
+
+    #[test]
+    fn names_change_and_nothing_else() {
+        let renamed = [
+            Renamed {
+                name: "ps",
+                instead: "blocks.p7".into(),
+            },
+            Renamed {
+                name: "texture0",
+                instead: "view3".into(),
+            },
+        ];
+        let all = items(SOURCE);
+        let function = embedded(&all[5], 7, "ps_main", &renamed);
+        let function = before_return(&function, "kept = r1;");
+        assert_eq!(
+            function,
+            "\
+fn ps_main_7(in: Varyings_7) -> vec4f {
+    // 1: ps.1.1, with ps and texture0 in a comment
+    let c1 = clamp(blocks.p7.c[1], vec4f(-1.0), vec4f(1.0));
+
+    let texture0_too = in.ps;
+    if killed {
+        discard;
+    }
+    kept = r1;
+    return r0;
+}
+"
+        );
+        let structure = embedded(&all[0], 7, "ps_main", &renamed);
+        assert!(structure.starts_with("struct PixelUniforms_7 {\n    c: array<vec4f, 2>,"));
+    }
+}

@@ -1,6 +1,6 @@
 //! What a translation tells about itself.
 
-use super::support::{Shader, valid, valid_pair};
+use super::support::{Shader, valid, valid_pair, validate};
 use crate::isa::ShaderKind;
 use crate::program::Usage;
 use crate::raster::{Compare, FogDistance, FogMode};
@@ -263,4 +263,44 @@ fn what_has_no_translation_is_refused() {
         refused(true, false, &options),
         TranslateError::ClipPlanes(7)
     );
+}
+
+/// Without derivatives: nothing is left of the functions that take them, whatever the textures and biases are.
+#[test]
+fn level_zero_is_read_explicitly() {
+    let listing = Shader::new("ps.1.4\ntexld r0, t0\ntexld r1, t1\nadd r0, r0, r1\n");
+    for kind in [
+        TextureKind::Texture2D,
+        TextureKind::Cube,
+        TextureKind::Volume,
+    ] {
+        for varied in [false, true] {
+            let stage = StageOptions {
+                seamless: varied,
+                lod_bias: varied,
+                ..StageOptions::with_texture(Some(kind))
+            };
+            let options = Options {
+                stages: [stage; 8],
+                level_zero: true,
+                ..Options::default()
+            };
+            let translation = listing.translate(&options);
+            validate(&translation.source);
+            for implicit in [
+                "textureSample(",
+                "textureSampleBias",
+                "Grad",
+                "dpdx",
+                "lod_bias",
+            ] {
+                assert!(
+                    !translation.source.contains(implicit),
+                    "{}",
+                    translation.source
+                );
+            }
+            assert!(translation.source.contains("textureSampleLevel"));
+        }
+    }
 }
