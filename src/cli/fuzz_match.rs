@@ -147,11 +147,11 @@ fn text(
         let _ = writeln!(text, "mismatch: {version}, seed {}: {first}", mismatch.seed);
     }
     let comparison = &report.comparison;
-    let _ = writeln!(
-        text,
-        "{} shaders, CPU against {adapter}, {seconds:.0} s",
-        report.shaders
-    );
+    let shaders = match report.shaders {
+        1 => "1 shader".to_owned(),
+        count => format!("{count} shaders"),
+    };
+    let _ = writeln!(text, "{shaders}, CPU against {adapter}, {seconds:.0} s");
     let _ = writeln!(
         text,
         "  {} numbers compared, {:.2} % equal to the bit; a difference took {:.0} % of its bound at most",

@@ -108,3 +108,38 @@ fn another_texture_instruction_is_found() {
 fn a_pixel_that_is_not_discarded_is_found() {
     is_found(Version::Ps13, "texkill", "tex", 2);
 }
+
+/// The command, from outside: everything that a program may want to read, and one shader again by its seed.
+#[test]
+fn the_command_tells_what_was_compared() {
+    if crate::device().is_none() {
+        return;
+    }
+    let run = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_texcrd"));
+        let ran = command.arg("fuzz-match").args(arguments).output();
+        let ran = ran.expect("the program starts");
+        let out = String::from_utf8(ran.stdout).expect("results are UTF-8");
+        (ran.status.code(), out)
+    };
+    let (status, out) = run(&["--count", "14", "--seed", "5", "--format", "json"]);
+    assert_eq!(status, Some(0), "{out}");
+    let told: serde_json::Value = serde_json::from_str(&out).expect("one JSON object");
+    assert_eq!((&told["shaders"], &told["seed"]), (&14.into(), &5.into()));
+    assert_eq!(told["mismatches"], serde_json::json!([]));
+    assert!(told["numbers"].as_u64() > Some(100), "{out}");
+    for version in Version::all() {
+        // Two shaders of each version; every pixel shader writes r0.
+        let registers = &told["coverage"][version.name()]["registers"];
+        let always = match version.kind() {
+            texcrd::isa::ShaderKind::Vertex => "oPos",
+            texcrd::isa::ShaderKind::Pixel => "r0",
+        };
+        assert_eq!(registers[always], 2, "{registers}");
+    }
+    let (status, out) = run(&["--version", "ps.1.4", "--seed", "77"]);
+    assert_eq!(status, Some(0), "{out}");
+    assert!(out.starts_with("1 shader,"), "{out}");
+    assert!(out.ends_with("no mismatch\n"), "{out}");
+    assert_eq!(run(&["--version", "ps.2.0"]).0, Some(2));
+}
