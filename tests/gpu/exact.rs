@@ -474,7 +474,7 @@ fn expected(generated: &Generated, slot: Slot, component: usize, invocation: usi
 #[test]
 fn generated_arithmetic_is_equal_to_the_bit() {
     let textures = Textures::new().expect("textures of sizes that fit");
-    const EACH: u64 = 64;
+    const EACH: u64 = 32;
     let Some(device) = exact_device() else {
         // Held to the bounds of WGSL at least.
         let Some(device) = crate::device() else {
