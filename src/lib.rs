@@ -18,6 +18,8 @@ pub mod kernel;
 #[cfg(feature = "languages")]
 pub mod languages;
 pub mod listing;
+#[cfg(feature = "gpu")]
+pub mod matching;
 pub mod mesh;
 pub mod policy;
 pub mod program;

@@ -20,7 +20,8 @@ pub(super) struct Arguments {
     wild: bool,
 }
 
-fn version(text: &str) -> Result<Version, String> {
+/// The value parser of `--version`.
+pub(super) fn version(text: &str) -> Result<Version, String> {
     let fits = |v: &Version| v.name().eq_ignore_ascii_case(&text.replace('_', "."));
     Version::all().find(fits).ok_or_else(|| {
         let names: Vec<_> = Version::all().map(Version::name).collect();

@@ -9,6 +9,7 @@ mod compare;
 mod diagnostics;
 mod eval;
 mod files;
+mod fuzz_match;
 mod generate;
 mod reflect;
 mod run;
@@ -46,6 +47,7 @@ enum Command {
     Check(check::Arguments),
     Compare(compare::Arguments),
     Eval(eval::Arguments),
+    FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
     Run(run::Arguments),
     Translate(translate::Arguments),
@@ -90,6 +92,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Translate(arguments) => translate::run(&arguments),

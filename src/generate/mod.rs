@@ -430,7 +430,14 @@ fn outcomes(
             let colors = (0..2).filter_map(Slot::color_output);
             let sets = (0..8).filter_map(Slot::texcoord_output);
             let all = scalars.into_iter().chain(colors).chain(sets);
-            all.map(|slot| (slot, kernel.written(slot))).collect()
+            // Fog and point size are one number each, whichever component it is written to.
+            let counted = |slot: Slot| match slot {
+                Slot::FOG => WriteMask::component(kernel.fog_component),
+                Slot::POINT_SIZE => WriteMask::component(kernel.point_size_component),
+                _ => WriteMask::ALL,
+            };
+            all.map(|slot| (slot, kernel.written(slot).and(counted(slot))))
+                .collect()
         }
         ShaderKind::Pixel => vec![
             (Slot::R0, WriteMask::ALL),

@@ -16,8 +16,9 @@ const MOST_TRIES: u32 = 4096;
 
 /// Makes a shader on which something fails as small as can be while it still fails.
 ///
-/// Removes instructions (halves first, then less), then pairing, modifiers, masks and swizzles, replaces instructions
-/// by `mov` of a constant, destinations by `r0` or `oPos` and operands by `c0`, until nothing of that is possible or 4096 shaders were tried. What is tried
+/// Ends the shader with an instruction whose result is that of the shader, removes instructions (halves first, then less),
+/// then pairing, modifiers, masks and swizzles, replaces instructions by `mov` of a constant or of one of their sources,
+/// destinations by `r0` or `oPos` and operands by `c0`, until nothing of that is possible or 4096 shaders were tried. What is tried
 /// is valid: it breaks no rule of Direct3D 8 that `program` does not break, warnings included. `fails` says whether the
 /// failure is there; it is not asked about `program` itself. The result has the spans of [`crate::syntax::print`]'s text.
 pub fn shrink(program: &Program, fails: &mut dyn FnMut(&Program) -> bool) -> Program {
@@ -28,9 +29,10 @@ pub fn shrink(program: &Program, fails: &mut dyn FnMut(&Program) -> bool) -> Pro
         tries: MOST_TRIES,
     };
     loop {
+        let cut = shrinking.cut();
         let removed = shrinking.remove();
         let simplified = shrinking.simplify();
-        if !(removed || simplified) {
+        if !(cut || removed || simplified) {
             break;
         }
     }
@@ -68,6 +70,26 @@ impl Shrinking<'_> {
             self.best = candidate;
         }
         fails
+    }
+
+    /// Ends the shader early, with an instruction that writes the result of the shader instead of another register.
+    fn cut(&mut self) -> bool {
+        let kind = self.best.version.kind();
+        for last in 0..self.best.statements.len().saturating_sub(1) {
+            let mut statements = self.best.statements.clone();
+            statements.truncate(last + 1);
+            if let Some(Statement::Instruction(instruction)) = statements.last_mut()
+                && let Some(destination) = &mut instruction.destination
+            {
+                destination.register = result_register(kind);
+                destination.mask = WriteMask::ALL;
+                instruction.co_issue = false;
+                if self.offer(statements) {
+                    return true;
+                }
+            }
+        }
+        false
     }
 
     /// Removes runs of statements, long ones first.
@@ -146,6 +168,14 @@ fn plainer(statement: &Statement, kind: ShaderKind, number: usize) -> Option<Sta
     forms.into_iter().nth(number)
 }
 
+/// What a shader is run for.
+fn result_register(kind: ShaderKind) -> Register {
+    match kind {
+        ShaderKind::Pixel => Register::new(RegisterFile::Temp, 0),
+        ShaderKind::Vertex => Register::new(RegisterFile::RastOut, OPOS),
+    }
+}
+
 fn plainer_instructions(instruction: &Instruction, kind: ShaderKind) -> Vec<Instruction> {
     let mut forms = Vec::new();
     let constant = Source {
@@ -160,7 +190,13 @@ fn plainer_instructions(instruction: &Instruction, kind: ShaderKind) -> Vec<Inst
         moved.result = ResultModifier::NONE;
         moved.co_issue = false;
         moved.sources = vec![constant];
-        forms.push(moved);
+        forms.push(moved.clone());
+        if instruction.opcode != Opcode::Mov {
+            for source in &instruction.sources {
+                moved.sources = vec![*source];
+                forms.push(moved.clone());
+            }
+        }
     }
     let mut alone = instruction.clone();
     alone.co_issue = false;
@@ -209,13 +245,9 @@ fn plainer_instructions(instruction: &Instruction, kind: ShaderKind) -> Vec<Inst
         });
         forms.push(whole);
         // What writes the result makes another instruction that does so superfluous.
-        let result = match kind {
-            ShaderKind::Pixel => Register::new(RegisterFile::Temp, 0),
-            ShaderKind::Vertex => Register::new(RegisterFile::RastOut, OPOS),
-        };
         let mut direct = instruction.clone();
         direct.destination = Some(Destination {
-            register: result,
+            register: result_register(kind),
             ..destination
         });
         forms.push(direct);

@@ -150,6 +150,16 @@ impl Device {
             adapter: info.to_string(),
             reason: error.to_string(),
         })?;
+        Ok(Self::taking(info, device, queue))
+    }
+
+    /// A device that was opened elsewhere, with features of its own choice. Its errors and its loss are reported here from
+    /// now on.
+    pub fn of(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        Self::taking(AdapterInfo::of(adapter), device, queue)
+    }
+
+    fn taking(info: AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let complaints = Arc::new(Mutex::new(Complaints::default()));
         let errors = Arc::clone(&complaints);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
@@ -162,12 +172,12 @@ impl Device {
             let mut complaints = losses.lock().unwrap_or_else(PoisonError::into_inner);
             complaints.lost.get_or_insert(message);
         });
-        Ok(Self {
+        Self {
             device,
             queue,
             info,
             complaints,
-        })
+        }
     }
 
     /// The adapter that this device was made of.

@@ -21,7 +21,7 @@
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
 //! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
 //! `registers` and `parting` look into one pixel of them, `invocations` runs shaders for single invocations, for tests, by way
-//! of the entry points of `harness`.
+//! of the entry points of `harness`, `programs` many shaders in one pipeline.
 
 mod buffers;
 mod device;
@@ -32,6 +32,7 @@ mod invocations;
 mod parting;
 mod picture;
 mod pipeline;
+mod programs;
 mod registers;
 mod renderer;
 mod state;
@@ -48,6 +49,7 @@ pub use parting::{
     SampledTexture, compare_pixel,
 };
 pub use pipeline::bind_group_layouts;
+pub use programs::{Batch, Program, Results};
 pub use registers::PixelRegisters;
 pub use renderer::{Frame, Renderer};
 pub use state::{FixedState, fixed_state};

@@ -101,7 +101,7 @@ impl GpuTexture {
     }
 
     /// A view as a shader wants it. Without mip filter only level 0 is seen.
-    fn view(&self, dimension: Dimension, sampler: &Sampler) -> wgpu::TextureView {
+    pub(super) fn view(&self, dimension: Dimension, sampler: &Sampler) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(view_dimension(dimension)),
             mip_level_count: (sampler.mip == MipFilter::None).then_some(1),
@@ -110,7 +110,7 @@ impl GpuTexture {
     }
 
     /// The sampler for this texture.
-    fn sampler_state(&self, sampler: &Sampler, clamps: [bool; 3]) -> SamplerState {
+    pub(super) fn sampler_state(&self, sampler: &Sampler, clamps: [bool; 3]) -> SamplerState {
         let axis = |i: usize| match sampler.address[i] {
             _ if clamps[i] => wgpu::AddressMode::ClampToEdge,
             AddressMode::Wrap => wgpu::AddressMode::Repeat,
@@ -149,7 +149,7 @@ impl GpuTexture {
 
 /// A sampler as a key: equal ones are the same object on the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct SamplerState {
+pub(super) struct SamplerState {
     address: [wgpu::AddressMode; 3],
     mag: wgpu::FilterMode,
     min: wgpu::FilterMode,
@@ -159,7 +159,7 @@ struct SamplerState {
 }
 
 impl SamplerState {
-    fn create(&self, device: &Device) -> wgpu::Sampler {
+    pub(super) fn create(&self, device: &Device) -> wgpu::Sampler {
         let [least, most] = self.lod_hundredths.map(|level| level as f32 / 100.0);
         device.device.create_sampler(&wgpu::SamplerDescriptor {
             address_mode_u: self.address[0],

@@ -30,6 +30,7 @@ pub(super) enum Helper {
     OnFace,
     SampleFaces,
     SampleFacesBias,
+    SampleFacesLevelZero,
     LinearFog,
 }
 
@@ -60,6 +61,7 @@ impl Helper {
             Self::OnFace => "on_face".into(),
             Self::SampleFaces => "sample_faces".into(),
             Self::SampleFacesBias => "sample_faces_bias".into(),
+            Self::SampleFacesLevelZero => "sample_faces_level_zero".into(),
             Self::LinearFog => "linear_fog".into(),
         }
     }
@@ -71,7 +73,9 @@ impl Helper {
             Self::ExpP => vec![Self::PartialPrecision],
             Self::LogP => vec![Self::Log2, Self::PartialPrecision],
             Self::Lit => vec![Self::Log2],
-            Self::SampleFaces | Self::SampleFacesBias => vec![Self::CubeFace, Self::OnFace],
+            Self::SampleFaces | Self::SampleFacesBias | Self::SampleFacesLevelZero => {
+                vec![Self::CubeFace, Self::OnFace]
+            }
             _ => Vec::new(),
         }
     }
@@ -140,6 +144,7 @@ impl Helper {
             Self::OnFace => ON_FACE.into(),
             Self::SampleFaces => sample_faces(false),
             Self::SampleFacesBias => sample_faces(true),
+            Self::SampleFacesLevelZero => SAMPLE_FACES_LEVEL_ZERO.into(),
             Self::LinearFog => LINEAR_FOG.into(),
         }
     }
@@ -247,6 +252,14 @@ const LINEAR_FOG: &str = "\
 // How clear it is at a distance between the start and the end of fog; a step where both are in one place.
 fn linear_fog(distance: f32, start: f32, end: f32) -> f32 {
     return select((end - distance) / (end - start), f32(distance < end), start == end);
+}
+";
+
+const SAMPLE_FACES_LEVEL_ZERO: &str = "\
+// Level 0 of a cube as Direct3D 8 filters it, each face for itself.
+fn sample_faces_level_zero(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f) -> vec4f {
+    let face = cube_face(direction);
+    return textureSampleLevel(faces, clamped, on_face(face, direction), face, 0.0);
 }
 ";
 

@@ -304,16 +304,25 @@ impl Body<'_> {
             format!("sampler{stage}"),
             at.text.clone(),
         ];
-        if state.lod_bias {
+        let function = match (
+            state.separate_faces(),
+            self.options.level_zero,
+            state.lod_bias,
+        ) {
+            (false, true, _) => {
+                arguments.push("0.0".into());
+                "textureSampleLevel".to_string()
+            }
+            (false, false, true) => "textureSampleBias".to_string(),
+            (false, false, false) => "textureSample".to_string(),
+            (true, true, _) => self.helpers.call(Helper::SampleFacesLevelZero),
+            (true, false, true) => self.helpers.call(Helper::SampleFacesBias),
+            (true, false, false) => self.helpers.call(Helper::SampleFaces),
+        };
+        if state.lod_bias && !self.options.level_zero {
             let bias = self.uniform(Field::LodBias(stage));
             arguments.push(bias);
         }
-        let function = match (state.separate_faces(), state.lod_bias) {
-            (false, false) => "textureSample".to_string(),
-            (false, true) => "textureSampleBias".to_string(),
-            (true, false) => self.helpers.call(Helper::SampleFaces),
-            (true, true) => self.helpers.call(Helper::SampleFacesBias),
-        };
         Expression::call(&function, &arguments, 4)
     }
 

@@ -38,6 +38,9 @@ pub struct Options {
     /// shader is cut there. Components that nothing has written are 0. Neither fog nor the alpha test touch it; `texkill`
     /// as far as it has run does, unless the view is [`View::Exact`](crate::raster::View::Exact).
     pub show: Option<RegisterPicture>,
+    /// Whether level 0 of a texture is read whatever its coordinates do from pixel to pixel: exact for textures of one
+    /// level. Such a translation may sample where WGSL allows no derivatives: in branches, and beyond fragment shaders.
+    pub level_zero: bool,
     /// Name of the vertex entry point.
     pub vertex_entry: String,
     /// Name of the pixel entry point.
@@ -79,6 +82,7 @@ impl Default for Options {
             wild_inputs: false,
             observed: None,
             show: None,
+            level_zero: false,
             vertex_entry: "vs_main".into(),
             pixel_entry: "ps_main".into(),
         }

@@ -5,7 +5,9 @@
 
 mod arithmetic;
 mod cases;
+mod exact;
 mod frames;
+mod matching;
 mod registers;
 mod states;
 #[path = "../conformance/suite.rs"]

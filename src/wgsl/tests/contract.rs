@@ -1,6 +1,6 @@
 //! What a translation tells about itself.
 
-use super::support::{Shader, valid, valid_pair};
+use super::support::{Shader, valid, valid_pair, validate};
 use crate::isa::ShaderKind;
 use crate::kernel::Slot;
 use crate::program::Usage;
@@ -349,4 +349,44 @@ fn textures_of_different_shapes_pass_what_each_needs() {
     assert_eq!(passed(kinds[1], kinds[0]), [(1, 2), (2, 3)]);
     assert_eq!(passed(kinds[0], None), [(1, 3)]);
     assert_eq!(passed(None, kinds[1]), [(2, 2)]);
+}
+
+/// Without derivatives: nothing is left of the functions that take them, whatever the textures and biases are.
+#[test]
+fn level_zero_is_read_explicitly() {
+    let listing = Shader::new("ps.1.4\ntexld r0, t0\ntexld r1, t1\nadd r0, r0, r1\n");
+    for kind in [
+        TextureKind::Texture2D,
+        TextureKind::Cube,
+        TextureKind::Volume,
+    ] {
+        for varied in [false, true] {
+            let stage = StageOptions {
+                seamless: varied,
+                lod_bias: varied,
+                ..StageOptions::with_texture(Some(kind))
+            };
+            let options = Options {
+                stages: [stage; 8],
+                level_zero: true,
+                ..Options::default()
+            };
+            let translation = listing.translate(&options);
+            validate(&translation.source);
+            for implicit in [
+                "textureSample(",
+                "textureSampleBias",
+                "Grad",
+                "dpdx",
+                "lod_bias",
+            ] {
+                assert!(
+                    !translation.source.contains(implicit),
+                    "{}",
+                    translation.source
+                );
+            }
+            assert!(translation.source.contains("textureSampleLevel"));
+        }
+    }
 }

@@ -99,7 +99,7 @@ fn options() -> impl Strategy<Value = Options> {
         AddressMode::Border,
         AddressMode::MirrorOnce,
     ]);
-    (kind, mode, any::<[bool; 4]>()).prop_map(|(texture, mode, [a, b, c, d])| Options {
+    (kind, mode, any::<[bool; 5]>()).prop_map(|(texture, mode, [a, b, c, d, e])| Options {
         stages: [StageOptions {
             texture,
             seamless: a,
@@ -109,6 +109,7 @@ fn options() -> impl Strategy<Value = Options> {
         }; 8],
         exact_dots: c,
         overridable_definitions: d,
+        level_zero: e,
         ..Options::default()
     })
 }
