@@ -67,11 +67,16 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     bar.set_message("shaders");
     let report = matching::run(&devices, &plan, None, &|done| bar.inc(done)).map_err(failure)?;
     bar.finish_and_clear();
+    let large = report.mismatches.iter().take(arguments.shrink);
+    let bar = scene::progress_bar();
+    bar.set_length(large.len() as u64);
+    bar.set_message("mismatches made small");
     let mut small = Vec::new();
-    for (number, mismatch) in report.mismatches.iter().take(arguments.shrink).enumerate() {
-        bar.set_message(format!("making mismatch {} small", number + 1));
+    for mismatch in large {
         small.push(matching::shrink(device, mismatch, None).map_err(failure)?);
+        bar.inc(1);
     }
+    bar.finish_and_clear();
     let seconds = begun.elapsed().as_secs_f64();
     let adapter = device.adapter().to_string();
     let textures = Textures::new().map_err(|e| Failure::Input(e.to_string()))?;

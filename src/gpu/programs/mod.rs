@@ -188,7 +188,8 @@ impl<'a> Batch<'a> {
         let most_views = (limits.max_sampled_textures_per_shader_stage)
             .min(limits.max_samplers_per_shader_stage);
         let registers = FIRST_INPUT as usize + self.module.inputs;
-        let most_registers = limits.max_vertex_attributes;
+        let most_registers =
+            (limits.max_vertex_attributes).min(limits.max_inter_stage_shader_variables);
         let needs = [
             (
                 self.module.blocks.len() as u64,
