@@ -49,28 +49,29 @@ impl<'d> Renderer<'d> {
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<RgbaImage, GpuError> {
         let passes = scene.passes(size.unwrap_or(scene.size()));
-        let total = passes.iter().map(|pass| pass.draws.len()).sum();
-        let mut frame = Frame {
-            renderer: self,
-            scene,
-            rendered: Rendered::new(scene),
-            textures: HashMap::new(),
-            meshes: MeshBuffers::default(),
-            done: 0,
-            total,
-            progress,
-        };
+        let mut frame = Frame::new(self, scene, &passes, progress);
         let mut picture = RgbaImage::new(0, 0);
         for pass in &passes {
-            let drawn = frame.pass(pass)?;
-            match pass.output {
-                Output::Picture => picture = drawn,
-                Output::Target { target, face } => {
-                    frame.rendered.take_face(target, face, &drawn)?;
-                }
-            }
+            picture = frame.pass_and_keep(pass)?.unwrap_or(picture);
         }
         Ok(picture)
+    }
+
+    /// Renders what the picture of a scene reads from render targets, and gives all textures of the scene by the numbers
+    /// that [`PreparedStage::texture`](crate::scene::PreparedStage::texture) holds, for an engine that draws the picture
+    /// itself. None for what hangs on a render target that the picture does not need.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn textures(&mut self, scene: &Scene) -> Result<Vec<Option<Texture>>, GpuError> {
+        let mut passes = scene.passes(scene.size());
+        passes.retain(|pass| pass.output != Output::Picture);
+        let mut frame = Frame::new(self, scene, &passes, &|_| ());
+        for pass in &passes {
+            frame.pass_and_keep(pass)?;
+        }
+        let texture = |number| frame.rendered.texture(number).cloned();
+        Ok((0..scene.textures().len()).map(texture).collect())
     }
 }
 
@@ -151,7 +152,37 @@ struct Ready {
     stencil: u32,
 }
 
-impl Frame<'_, '_> {
+impl<'a, 'd> Frame<'a, 'd> {
+    fn new(
+        renderer: &'a mut Renderer<'d>,
+        scene: &'a Scene,
+        passes: &[Pass<'_>],
+        progress: &'a dyn Fn(Progress<'_>),
+    ) -> Self {
+        Self {
+            renderer,
+            scene,
+            rendered: Rendered::new(scene),
+            textures: HashMap::new(),
+            meshes: MeshBuffers::default(),
+            done: 0,
+            total: passes.iter().map(|pass| pass.draws.len()).sum(),
+            progress,
+        }
+    }
+
+    /// Draws a pass; what goes into a render target is kept for the passes that read it, the picture is returned.
+    fn pass_and_keep(&mut self, pass: &Pass<'_>) -> Result<Option<RgbaImage>, GpuError> {
+        let drawn = self.pass(pass)?;
+        match pass.output {
+            Output::Picture => Ok(Some(drawn)),
+            Output::Target { target, face } => {
+                self.rendered.take_face(target, face, &drawn)?;
+                Ok(None)
+            }
+        }
+    }
+
     fn pass(&mut self, pass: &Pass<'_>) -> Result<RgbaImage, GpuError> {
         let device = self.renderer.device;
         let [width, height] = pass.size;

@@ -5,6 +5,7 @@
 
 mod arithmetic;
 mod frames;
+mod textures;
 
 use texcrd::gpu::Device;
 
