@@ -3,6 +3,10 @@
 //! `cargo bench --no-default-features --bench translate`; BENCHMARKS.md says what came out. `translate` starts from
 //! shaders that were parsed and lowered before and ends with text and reflection; `text to WGSL` is everything that is
 //! needed for two texts.
+#![allow(
+    clippy::expect_used,
+    reason = "a benchmark that cannot go on has failed"
+)]
 
 use std::hint::black_box;
 

@@ -9,7 +9,8 @@
 //! [`translate`](crate::wgsl::translate) gives the WGSL and a [`Reflection`](crate::wgsl::Reflection). From the reflection
 //! follow the bind group layouts ([`bind_group_layouts`]), the vertex buffers ([`VertexLayout`], of a Direct3D 8 declaration)
 //! and the content of the uniform blocks ([`Uniforms::block`]); from the render states the rest of the pipeline
-//! ([`fixed_state`]).
+//! ([`fixed_state`]). A scene's textures, with what its render targets hold, come from [`Renderer::textures`]. The example in
+//! `examples/window` is such an engine.
 //!
 //! # What is not the same as on the CPU
 //!

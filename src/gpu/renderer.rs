@@ -17,6 +17,7 @@ use crate::scene::{
     Output, Pass, PreparedDraw, Progress, RenderOptions, Rendered, Scene, Shader, TargetPicture,
     clear_color,
 };
+use crate::texture::Texture;
 use crate::wgsl::{self, Options, Points, Resource, Translation, translate};
 
 /// Draws scenes with a device. Pipelines and samplers are kept from one picture to the next.
@@ -76,42 +77,24 @@ impl<'d> Renderer<'d> {
             Some(show) => Some((scene.shown_draw(show)?, show.picture)),
             None => None,
         };
-        let mut steps = Steps {
-            done: 0,
-            total: passes.iter().map(|pass| pass.draws.len()).sum(),
-            progress,
-        };
-        let mut frame = Frame {
-            renderer: self,
-            scene,
-            rendered: Rendered::new(scene),
-            textures: HashMap::new(),
-            meshes: MeshBuffers::default(),
-            size,
-            picture: RgbaImage::new(0, 0),
-            targets: Vec::new(),
-        };
-        for pass in &passes {
-            match pass.output {
-                Output::Picture => frame.picture = frame.pass(pass, shown, &mut steps)?,
-                Output::Target { target, face } => {
-                    let picture = frame.pass(pass, None, &mut steps)?;
-                    let is_this =
-                        |given: &&TargetPicture| (given.target, given.face) == (target, face);
-                    let seen = given
-                        .iter()
-                        .find(is_this)
-                        .map_or(&picture, |given| &given.picture);
-                    frame.rendered.take_face(target, face, seen)?;
-                    frame.targets.push(TargetPicture {
-                        target,
-                        face,
-                        picture,
-                    });
-                }
-            }
-        }
+        let mut frame = Frame::new(self, scene, size);
+        frame.passes(&passes, shown, given, progress)?;
         Ok(frame)
+    }
+
+    /// Renders what the picture of a scene reads from render targets, and gives all textures of the scene by the numbers
+    /// that [`PreparedStage::texture`](crate::scene::PreparedStage::texture) holds, for an engine that draws the picture
+    /// itself. None for what hangs on a render target that the picture does not need.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn textures(&mut self, scene: &Scene) -> Result<Vec<Option<Texture>>, GpuError> {
+        let mut passes = scene.passes(scene.size());
+        passes.retain(|pass| pass.output != Output::Picture);
+        let mut frame = Frame::new(self, scene, scene.size());
+        frame.passes(&passes, None, &[], &|_| ())?;
+        let texture = |number| frame.rendered.texture(number).cloned();
+        Ok((0..scene.textures().len()).map(texture).collect())
     }
 }
 
@@ -199,6 +182,20 @@ pub(super) struct Ready {
 }
 
 impl<'r, 'd> Frame<'r, 'd> {
+    /// Nothing drawn yet.
+    fn new(renderer: &'r mut Renderer<'d>, scene: &'r Scene, size: [u32; 2]) -> Self {
+        Self {
+            renderer,
+            scene,
+            rendered: Rendered::new(scene),
+            textures: HashMap::new(),
+            meshes: MeshBuffers::default(),
+            size,
+            picture: RgbaImage::new(0, 0),
+            targets: Vec::new(),
+        }
+    }
+
     /// The scene.
     pub fn scene(&self) -> &'r Scene {
         self.scene
@@ -222,6 +219,40 @@ impl<'r, 'd> Frame<'r, 'd> {
     /// Width and height of the picture in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
+    }
+
+    /// Draws passes in order and keeps what they give.
+    fn passes(
+        &mut self,
+        passes: &[Pass<'_>],
+        shown: Option<(usize, RegisterPicture)>,
+        given: &[TargetPicture],
+        progress: &dyn Fn(Progress<'_>),
+    ) -> Result<(), GpuError> {
+        let mut steps = Steps {
+            done: 0,
+            total: passes.iter().map(|pass| pass.draws.len()).sum(),
+            progress,
+        };
+        for pass in passes {
+            match pass.output {
+                Output::Picture => self.picture = self.pass(pass, shown, &mut steps)?,
+                Output::Target { target, face } => {
+                    let picture = self.pass(pass, None, &mut steps)?;
+                    let is_this =
+                        |given: &&TargetPicture| (given.target, given.face) == (target, face);
+                    let seen = given.iter().find(is_this);
+                    let seen = seen.map_or(&picture, |given| &given.picture);
+                    self.rendered.take_face(target, face, seen)?;
+                    self.targets.push(TargetPicture {
+                        target,
+                        face,
+                        picture,
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     fn pass(

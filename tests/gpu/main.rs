@@ -12,6 +12,7 @@ mod registers;
 mod states;
 #[path = "../conformance/suite.rs"]
 mod suite;
+mod textures;
 mod trouble;
 
 use texcrd::gpu::Device;
