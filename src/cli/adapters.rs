@@ -14,7 +14,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let adapters = adapters();
-    if adapters.is_empty() && arguments.format == Format::Text {
+    if adapters.is_empty() {
         return Err(Failure::Io(GpuError::NoAdapter.to_string()));
     }
     match arguments.format {

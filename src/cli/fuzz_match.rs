@@ -25,7 +25,7 @@ Examples:
 Exit status: 0 no mismatch, 1 a mismatch, 2 usage or I/O.")]
 pub(super) struct Arguments {
     /// How many shaders
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     count: u64,
     /// Seed of the first shader; those of the others follow from it
     #[arg(long, value_name = "S", default_value_t = 0)]

@@ -30,7 +30,7 @@ use texcrd::scene::{PreparedDraw, RenderOptions, Scene};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  texcrd compare asm/stained_glass/figure5.toml --size 320x240
+  texcrd compare asm/stained_glass/scene.toml --tolerance 3
   texcrd compare scene.toml --tolerance 8 -o differences.png
   texcrd compare scene.toml --pixel 120,84 --all-lines
   texcrd compare scene.toml --adapter llvmpipe --format json
@@ -129,6 +129,11 @@ struct Pixel {
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     if let Some(path) = &arguments.output {
+        if path.as_os_str() == "-" {
+            return Err(Failure::Io(
+                "-o -: standard output is for the differences in words; write the picture to a file".into(),
+            ));
+        }
         files::can_be_written(path)?;
     }
     let loaded = scene::load(&arguments.scene, arguments.dialect)?;
