@@ -80,6 +80,10 @@ pub(super) fn can_be_written(path: &Path) -> Result<(), Failure> {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
+    if place.is_dir() {
+        let why = std::io::ErrorKind::IsADirectory;
+        return Err(Failure::Io(format!("{}: {why}", path.display())));
+    }
     if path == Path::new("-") || folder.is_dir() {
         return Ok(());
     }
@@ -88,4 +92,25 @@ pub(super) fn can_be_written(path: &Path) -> Result<(), Failure> {
         "{}: there is no folder {folder}",
         path.display()
     )))
+}
+
+/// Refuses to write over one of the files that were read: a listing may be the only copy.
+///
+/// # Errors
+/// [`Failure::Io`].
+pub(super) fn is_no_input<'a>(
+    path: &Path,
+    inputs: impl IntoIterator<Item = &'a String>,
+) -> Result<(), Failure> {
+    let Ok(place) = fs::canonicalize(path) else {
+        return Ok(());
+    };
+    let is_this = |input: &&String| fs::canonicalize(input).is_ok_and(|input| input == place);
+    match inputs.into_iter().find(is_this) {
+        Some(_) => Err(Failure::Io(format!(
+            "{}: this is what is translated; write to another file",
+            path.display()
+        ))),
+        None => Ok(()),
+    }
 }

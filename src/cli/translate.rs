@@ -116,11 +116,16 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         }
     }
     let Target::Other(language) = arguments.to else {
-        return write(arguments.output.as_deref(), translation.source.as_bytes());
+        let path = arguments.output.as_deref();
+        return write(
+            arguments,
+            &[(path.map(Path::to_owned), translation.source.as_bytes())],
+        );
     };
     let written = languages::write(&translation, language)
         .map_err(|error| Failure::Input(error.to_string()))?;
     let several = written.len() > 1;
+    let mut files = Vec::new();
     for shader in &written {
         let path = match (&arguments.output, shader.stage) {
             (Some(path), Some(stage)) if several => Some(path.with_extension(match stage {
@@ -135,16 +140,24 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
             }
             (path, _) => path.clone(),
         };
-        write(path.as_deref(), shader.code.bytes())?;
+        files.push((path, shader.code.bytes()));
     }
-    Ok(())
+    write(arguments, &files)
 }
 
-fn write(path: Option<&Path>, bytes: &[u8]) -> Outcome {
-    match (path, std::str::from_utf8(bytes)) {
-        (None, Ok(text)) => print(text),
-        (path, _) => files::write(path.unwrap_or(Path::new("-")), bytes),
+/// Writes all files, or none if one of them cannot be.
+fn write(arguments: &Arguments, written: &[(Option<PathBuf>, &[u8])]) -> Outcome {
+    for path in written.iter().filter_map(|(path, _)| path.as_deref()) {
+        files::is_no_input(path, &arguments.files)?;
+        files::can_be_written(path)?;
     }
+    for (path, bytes) in written {
+        match (path, std::str::from_utf8(bytes)) {
+            (None, Ok(text)) => print(text)?,
+            (path, _) => files::write(path.as_deref().unwrap_or(Path::new("-")), bytes)?,
+        }
+    }
+    Ok(())
 }
 
 /// Reads and lowers a listing.

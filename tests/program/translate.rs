@@ -58,6 +58,25 @@ fn glsl_has_a_file_a_stage() {
     }
 }
 
+/// Neither half of a pair is written where the other cannot be, and no listing is written over.
+#[test]
+fn nothing_is_lost() {
+    let folder = folder("translate_nothing_is_lost");
+    let out = folder.join("glass");
+    std::fs::create_dir_all(out.with_extension("frag")).expect("a folder can be made");
+    let path = out.to_string_lossy();
+    let ran = texcrd(&["translate", VERTEX, PIXEL, "--to", "glsl", "-o", &path]);
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert!(!out.with_extension("vert").exists());
+    let listing = folder.join("only.psh");
+    std::fs::write(&listing, "ps.1.1\nmov r0, v0\n").expect("a file can be written");
+    let path = listing.to_string_lossy();
+    let ran = texcrd(&["translate", &path, "-o", &path]);
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    let kept = std::fs::read_to_string(&listing).expect("it is there");
+    assert_eq!(kept, "ps.1.1\nmov r0, v0\n");
+}
+
 #[test]
 fn what_does_not_fit_together_is_refused() {
     for (arguments, status, message) in [
