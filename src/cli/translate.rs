@@ -190,7 +190,7 @@ fn fits(arguments: &Arguments, pixel: Option<&Stage<'_>>) -> Outcome {
         return Err(Failure::Io(format!("{without} needs a pixel shader")));
     };
     let read = pixel.kernel.stages();
-    for stage in (0..8).filter(|stage| given & !read >> stage & 1 == 1) {
+    for stage in (0..8).filter(|stage| (given & !read) >> stage & 1 == 1) {
         anstream::eprintln!("note: stage {stage} is not read: --texture has no effect on it");
     }
     // What texld reads from a register may be a direction as well as a place; projections are places.
@@ -204,7 +204,7 @@ fn fits(arguments: &Arguments, pixel: Option<&Stage<'_>>) -> Outcome {
         })
         .filter_map(|instruction| instruction.destination);
     let open = open.fold(0u8, |open, to| open | 1 << (to.register.index & 7));
-    for stage in (0..8).filter(|stage| open & read & !given >> stage & 1 == 1) {
+    for stage in (0..8).filter(|stage| (open & read & !given) >> stage & 1 == 1) {
         anstream::eprintln!(
             "note: stage {stage}: taken for a 2D texture; if a cube map is bound: --texture {stage}=cube"
         );
