@@ -4,7 +4,7 @@ use super::{Failure, Outcome, diagnostics, dialect, files, print, print_json, re
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use texcrd::diagnostic::{SourceMap, any_error};
-use texcrd::isa::{Opcode, ShaderKind};
+use texcrd::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier};
 use texcrd::kernel::{self, Kernel};
 use texcrd::languages::{self, Language};
 use texcrd::listing;
@@ -19,7 +19,7 @@ use texcrd::wgsl::{Fog, Options, Stage, translate};
 #[command(after_help = "\
 Examples:
   texcrd translate shader.psh
-  texcrd translate asm/stained_glass/stained_glass.vsh asm/stained_glass/stained_glass.psh -o glass.wgsl
+  texcrd translate asm/stained_glass/stained_glass.vsh asm/stained_glass/stained_glass.psh --texture 2=cube --texture 4=cube
   texcrd translate shader.psh --texture 3=cube --reflect
   texcrd translate shader.vsh shader.psh --to glsl -o shader       writes shader.vert and shader.frag")]
 pub(super) struct Arguments {
@@ -106,6 +106,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let message = "two listings are linked if one is a vertex and one a pixel shader";
         return Err(Failure::Io(message.into()));
     }
+    fits(arguments, pixel.as_ref())?;
     let options = options(arguments, pixel.as_ref().map(|stage| stage.program));
     let translation =
         translate(vertex, pixel, &options).map_err(|error| Failure::Input(error.to_string()))?;
@@ -181,6 +182,47 @@ fn read(
     let kernel = kernel::lower(program, &kernel::Options::default())
         .map_err(|e| Failure::Input(format!("{}: {e}", files::name(path))))?;
     Ok((program.clone(), kernel))
+}
+
+/// Refuses options that contradict each other or have no shader to work on, and says what was guessed or has no effect.
+fn fits(arguments: &Arguments, pixel: Option<&Stage<'_>>) -> Outcome {
+    let mut given = 0u8;
+    for (stage, _) in &arguments.textures {
+        if given >> stage & 1 == 1 {
+            let message = format!("--texture says twice what is bound to stage {stage}");
+            return Err(Failure::Io(message));
+        }
+        given |= 1 << stage;
+    }
+    let Some(pixel) = pixel else {
+        let without = match (arguments.alpha_test, given) {
+            (Some(_), _) => "--alpha-test",
+            (None, 1..) => "--texture",
+            (None, 0) => return Ok(()),
+        };
+        return Err(Failure::Io(format!("{without} needs a pixel shader")));
+    };
+    let read = pixel.kernel.stages();
+    for stage in (0..8).filter(|stage| (given & !read) >> stage & 1 == 1) {
+        anstream::eprintln!("note: stage {stage} is not read: --texture has no effect on it");
+    }
+    // What texld reads from a register may be a direction as well as a place; projections are places.
+    let open = (pixel.program.instructions())
+        .filter(|instruction| instruction.opcode == Opcode::TexLd)
+        .filter(|instruction| {
+            (instruction.sources.iter()).any(|source| {
+                source.register.file == RegisterFile::Temp
+                    && source.modifier == SourceModifier::None
+            })
+        })
+        .filter_map(|instruction| instruction.destination);
+    let open = open.fold(0u8, |open, to| open | 1 << (to.register.index & 7));
+    for stage in (0..8).filter(|stage| (open & read & !given) >> stage & 1 == 1) {
+        anstream::eprintln!(
+            "note: stage {stage}: taken for a 2D texture; if a cube map is bound: --texture {stage}=cube"
+        );
+    }
+    Ok(())
 }
 
 fn options(arguments: &Arguments, pixel: Option<&Program>) -> Options {

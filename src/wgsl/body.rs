@@ -13,7 +13,7 @@ use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{ShaderKind, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::program::Statement;
-use crate::raster::RegisterPicture;
+use crate::raster::{Compare, RegisterPicture, View};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{Display, Write};
 
@@ -172,6 +172,17 @@ impl<'a> Body<'a> {
     /// The register that a pixel shader returns in place of its colour.
     pub(super) fn shown(&self) -> Option<RegisterPicture> {
         (self.options.show).filter(|_| self.kind() == ShaderKind::Pixel)
+    }
+
+    /// Whether the alpha test lets nothing through.
+    pub(super) fn discards_all(&self) -> bool {
+        self.options.alpha_test == Some(Compare::Never) && self.shown().is_none()
+    }
+
+    /// Whether it matters in the end what `texkill` says.
+    pub(super) fn asks_for_kill(&self) -> bool {
+        let exact = (self.shown()).is_some_and(|picture| picture.view == View::Exact);
+        self.stage.kernel.kills() && !exact && !self.discards_all()
     }
 
     pub(super) fn name(&self, slot: Slot) -> String {
@@ -346,7 +357,7 @@ impl<'a> Body<'a> {
                 _ => self.push(format_args!("var {name}: vec{width}f;")),
             }
         }
-        if kernel.kills() {
+        if self.asks_for_kill() {
             self.push("var killed = false;");
         }
     }
@@ -365,7 +376,8 @@ impl<'a> Body<'a> {
 
     fn step(&mut self, step: &'a Step, pending: &mut Vec<Pending<'a>>) {
         if let Op::Kill = step.op {
-            let Some(operand) = step.sources.first() else {
+            let asked = self.asks_for_kill();
+            let Some(operand) = step.sources.first().filter(|_| asked) else {
                 return;
             };
             let tested = self.operand(operand, WriteMask::XYZ).spread(3);

@@ -78,6 +78,9 @@ impl Body<'_> {
             return self.push(format!("// c{index} {where_it_is}"));
         }
         let value = bound_value(self.kind(), def.value);
+        if value != def.value && !def.value.iter().any(|x| x.is_nan()) {
+            self.push("// Constants of pixel shaders are clamped to -1…1.");
+        }
         let line = match number::vector(value) {
             // Two constants in one expression are computed by the compiler, which refuses results that overflow.
             Some(text) if self.meets_constants(index) && value.iter().any(|v| v.abs() > 64.0) => {

@@ -32,6 +32,8 @@ pub(super) enum Helper {
     SampleFacesBias,
     SampleFacesLevelZero,
     LinearFog,
+    FogFactor,
+    Address,
 }
 
 impl Helper {
@@ -63,6 +65,8 @@ impl Helper {
             Self::SampleFacesBias => "sample_faces_bias".into(),
             Self::SampleFacesLevelZero => "sample_faces_level_zero".into(),
             Self::LinearFog => "linear_fog".into(),
+            Self::FogFactor => "fog_factor".into(),
+            Self::Address => "address".into(),
         }
     }
 
@@ -146,6 +150,8 @@ impl Helper {
             Self::SampleFacesBias => sample_faces(true),
             Self::SampleFacesLevelZero => SAMPLE_FACES_LEVEL_ZERO.into(),
             Self::LinearFog => LINEAR_FOG.into(),
+            Self::FogFactor => FOG_FACTOR.into(),
+            Self::Address => ADDRESS.into(),
         }
     }
 }
@@ -245,6 +251,24 @@ fn on_face(face: u32, direction: vec3f) -> vec2f {
     let a = abs(d);
     let distance = max(at.z, max(a.x, max(a.y, a.z)) / 1048576.0);
     return select((at.xy / distance + 1.0) / 2.0, vec2f(0.5), distance == 0.0);
+}
+";
+
+const FOG_FACTOR: &str = "\
+// How clear it is, 0 to 1; NaN is clear.
+fn fog_factor(f: f32) -> f32 {
+    let is_nan = (bitcast<u32>(f) & 0x7fffffffu) > 0x7f800000u;
+    return select(saturate(f), 1.0, is_nan);
+}
+";
+
+// 2147483520 is the largest number of 32 bits that i32 has as well.
+const ADDRESS: &str = "\
+// x rounded down to the nearest integer that there is; 0 for NaN.
+fn address(x: f32) -> i32 {
+    let is_nan = (bitcast<u32>(x) & 0x7fffffffu) > 0x7f800000u;
+    let whole = i32(clamp(floor(x), -2147483648.0, 2147483520.0));
+    return select(select(whole, 2147483647, x >= 2147483648.0), 0, is_nan);
 }
 ";
 

@@ -159,6 +159,16 @@ impl Magnitudes {
         (slots.components()).all(|slot| self.factor(operand, slot).most < UNBOUNDED)
     }
 
+    /// Whether a component of a register may be infinite or NaN by now.
+    pub(super) fn may_be_infinite(&self, slot: Slot, component: usize) -> bool {
+        self.most[slot.index()][component & 3] == UNBOUNDED
+    }
+
+    /// Whether what an operand reads into its first slot is a number that `i32` has as well, once it is rounded.
+    pub(super) fn fits_i32(&self, operand: &Operand) -> bool {
+        self.factor(operand, 0).most < 2f64.powi(31)
+    }
+
     /// What a step leaves behind if it runs now.
     pub(super) fn outcome(&self, step: &Step) -> Outcome {
         let scale = 2f64.powi(step.result.shift.into());

@@ -41,7 +41,7 @@
 //! [`StageOptions::wide_texels`] does; a vector multiplied by the reciprocal of its own length, as `dp3`, `rsq`, `mul` compute it, is no longer than 1, that is, not shorter than 1e-19
 //! before unless it is 0.
 //!
-//! Left to the GPU: denormal results, the sign of zero, NaN in coordinates and in saturation (0 on all that is known),
+//! Left to the GPU: denormal results, the sign of zero, NaN in coordinates and in saturation other than of fog (0 on all that is known),
 //! the level of detail within what WebGPU allows, the order of the sum within `dot` unless [`Options::exact_dots`].
 
 mod body;

@@ -50,7 +50,14 @@ impl Body<'_> {
                 let a = source(self, 0);
                 a.minus(&a.map("floor"))
             }
-            Op::Floor => Expression::call("i32", &[source(self, 0).map("floor").text], 1),
+            Op::Floor => {
+                let x = source(self, 0);
+                // WGSL leaves open what becomes of NaN.
+                match (step.sources.first()).is_some_and(|x| self.magnitudes.fits_i32(x)) {
+                    true => Expression::call("i32", &[x.map("floor").text], 1),
+                    false => self.called(Helper::Address, &[x], 1),
+                }
+            }
             Op::Cnd | Op::Cmp => {
                 let (operator, bound) = match step.op {
                     Op::Cnd => (">", "0.5"),

@@ -61,8 +61,14 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
 fn tests(body: &mut Body<'_>, varyings: &Varyings) {
     let mut conditions = Vec::new();
     let shown = body.shown();
-    let exact = shown.is_some_and(|picture| picture.view == View::Exact);
-    if body.stage.kernel.kills() && !exact {
+    if body.discards_all() {
+        body.note_discard();
+        return match body.options.observed {
+            None => body.push("discard;"),
+            Some(_) => body.push("if !keep {\n        discard;\n    }"),
+        };
+    }
+    if body.asks_for_kill() {
         conditions.push("killed".to_string());
     }
     for first in (0..varyings.clip).step_by(4) {
@@ -73,9 +79,6 @@ fn tests(body: &mut Body<'_>, varyings: &Varyings) {
         .and_then(|compare| alpha_fails(body, compare))
     {
         conditions.push(alpha);
-    }
-    if conditions.iter().any(|condition| condition == "true") {
-        conditions = vec!["true".into()];
     }
     if !conditions.is_empty() {
         body.note_discard();
@@ -142,7 +145,7 @@ fn shown(body: &Body<'_>, picture: &RegisterPicture) -> String {
 fn alpha_fails(body: &mut Body<'_>, compare: Compare) -> Option<String> {
     let fails = match compare {
         Compare::Always => return None,
-        Compare::Never => return Some("true".into()),
+        Compare::Never => return None,
         Compare::Less => ">=",
         Compare::Equal => "!=",
         Compare::LessEqual => ">",
@@ -179,7 +182,12 @@ fn apply_fog(body: &mut Body<'_>, fog: Fog) {
         }
     };
     let color = body.uniform(Field::FogColor);
-    body.push(format!("let clear = saturate({factor});"));
+    // Only states that are not finite make table fog NaN, which is clear.
+    let clamped = match fog.table != FogMode::None && body.options.wild_inputs {
+        true => body.helpers.call(Helper::FogFactor),
+        false => "saturate".into(),
+    };
+    body.push(format!("let clear = {clamped}({factor});"));
     body.push(format!(
         "r0 = vec4f(clear * saturate(r0.rgb) + (1.0 - clear) * {color}, r0.a);"
     ));

@@ -1,6 +1,7 @@
 //! The vertex entry point.
 
 use super::body::Body;
+use super::helper::Helper;
 use super::layout::Field;
 use super::options::Points;
 use super::varyings::Varyings;
@@ -75,6 +76,11 @@ fn outputs(body: &mut Body<'_>, varyings: &Varyings) {
     if varyings.fog {
         let value = match body.width(Slot::FOG) {
             0 => "0.0".to_string(),
+            // WGSL leaves open what becomes of NaN, which is clear in Direct3D.
+            _ if (body.magnitudes).may_be_infinite(Slot::FOG, body.stage.kernel.fog_component) => {
+                let name = body.helpers.call(Helper::FogFactor);
+                format!("{name}({})", body.name(Slot::FOG))
+            }
             _ => format!("saturate({})", body.name(Slot::FOG)),
         };
         body.push(format!("out.fog = {value};"));

@@ -36,6 +36,33 @@ fn the_contract_names_kinds_of_textures() {
 }
 
 #[test]
+fn what_was_guessed_or_has_no_effect_is_said() {
+    // The listing reads its maps 2 and 4 with directions that it computed.
+    let guessed = texcrd(&["translate", PIXEL]);
+    assert_eq!(guessed.status, 0, "{}", guessed.err);
+    for stage in [2, 4] {
+        let note = format!("stage {stage}: taken for a 2D texture");
+        assert!(guessed.err.contains(&note), "{}", guessed.err);
+    }
+    let told = texcrd(&[
+        "translate",
+        PIXEL,
+        "--texture",
+        "2=cube",
+        "--texture",
+        "4=cube",
+        "--texture",
+        "7=cube",
+    ]);
+    assert_eq!(told.status, 0, "{}", told.err);
+    for stage in [2, 4] {
+        let note = format!("stage {stage}:");
+        assert!(!told.err.contains(&note), "{}", told.err);
+    }
+    assert!(told.err.contains("stage 7 is not read"), "{}", told.err);
+}
+
+#[test]
 fn glsl_has_a_file_a_stage() {
     let refused = texcrd(&["translate", VERTEX, PIXEL, "--to", "glsl"]);
     assert_eq!(refused.status, 2);
@@ -90,6 +117,23 @@ fn what_does_not_fit_together_is_refused() {
             &["translate", PIXEL, "--texture", "9=cube"],
             2,
             "stages 0 to 7",
+        ),
+        (
+            &[
+                "translate",
+                PIXEL,
+                "--texture",
+                "2=cube",
+                "--texture",
+                "2=2d",
+            ],
+            2,
+            "twice",
+        ),
+        (
+            &["translate", VERTEX, "--alpha-test", "less"],
+            2,
+            "--alpha-test needs a pixel shader",
         ),
         (
             &["run", "x.toml", "-o", "x.png", "--adapter", "0"],

@@ -218,6 +218,55 @@ fn discards_come_last() {
 }
 
 #[test]
+fn a_test_that_nothing_passes_asks_for_nothing() {
+    let options = Options {
+        alpha_test: Some(crate::raster::Compare::Never),
+        ..Options::default()
+    };
+    let source = valid("ps.1.1\ntexkill t0\nmov r0, c0\n", &options).source;
+    assert!(source.contains("\n    discard;\n"), "{source}");
+    assert!(
+        !source.contains("killed") && !source.contains("if "),
+        "{source}"
+    );
+}
+
+#[test]
+fn what_is_nan_is_spelled_out_where_it_may_come_up() {
+    let fog = Options {
+        fog: Some(crate::wgsl::Fog {
+            table: crate::raster::FogMode::None,
+            distance: crate::raster::FogDistance::Z,
+        }),
+        ..Options::default()
+    };
+    let listing = "vs.1.1\nmov oPos, v0\nmov a0.x, v1.x\nmov oD0, c[a0.x]\nmov oFog, v2.x\n";
+    let source = |wild_inputs| {
+        let options = Options {
+            wild_inputs,
+            ..fog.clone()
+        };
+        let ps = Shader::new("ps.1.1\nmov r0, v0\n");
+        valid_pair(&Shader::new(listing), &ps, &options).source
+    };
+    for line in ["a0 = i32(floor(in.v1.x));", "out.fog = saturate(oFog);"] {
+        assert!(source(false).contains(line), "{line}\n{}", source(false));
+    }
+    for line in ["a0 = address(in.v1.x);", "out.fog = fog_factor(oFog);"] {
+        assert!(source(true).contains(line), "{line}\n{}", source(true));
+    }
+}
+
+#[test]
+fn a_definition_that_is_clamped_says_so() {
+    let source = |listing| valid(listing, &Options::default()).source;
+    let clamped = source("ps.1.1\ndef c0, 2, 0, 0, 1\nmov r0, c0\n");
+    assert!(clamped.contains("are clamped to -1…1"), "{clamped}");
+    let kept = source("ps.1.1\ndef c0, 1, 0, -1, 1\nmov r0, c0\n");
+    assert!(!kept.contains("clamped"), "{kept}");
+}
+
+#[test]
 fn what_an_instruction_writes_in_parts_is_one_assignment() {
     assert_eq!(
         statements("ps.1.1\ntexcoord t0\nmov r0, t0\n"),
