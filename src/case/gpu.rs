@@ -4,7 +4,7 @@ use super::run::{slot_of, unsized_point, without_vertex_shader};
 use super::slack::{Slack, each_texel};
 use super::{Case, Invocation, Observed, Quantity, Value, Verdict, judge, observe};
 use crate::exec::{self, bind_constants, overrides_definitions};
-use crate::gpu::{Device, GpuError, InvocationInputs, Invocations, Seen, Shading, stage_options};
+use crate::gpu::{Device, GpuError, InvocationInputs, Invocations, Shading, stage_options};
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Slot};
 use crate::raster::fog_unit;
@@ -88,8 +88,8 @@ impl<'d> OnGpu<'d> {
                 let numbers = vertex.values(case, &seen.vertex);
                 let numbers = numbers
                     .chain(pixel.values(case, &seen.pixel))
-                    .chain(depth(seen));
-                observed.killed = seen.depth.is_none();
+                    .chain([(Quantity::Depth, [seen.depth, 0.0, 0.0, 0.0])]);
+                observed.killed = seen.killed;
                 observed.values.extend(numbers.map(value));
             }
         }
@@ -124,13 +124,6 @@ fn value((quantity, numbers): (Quantity, [f32; 4])) -> Value {
         numbers,
         slack: [0.0; 4],
     }
-}
-
-fn depth(seen: &Seen) -> impl Iterator<Item = (Quantity, [f32; 4])> {
-    let depth = seen
-        .depth
-        .map(|depth| (Quantity::Depth, [depth, 0.0, 0.0, 0.0]));
-    depth.into_iter()
 }
 
 /// The shader of a kind.

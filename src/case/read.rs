@@ -66,6 +66,11 @@ impl super::Case {
                     .rsplit('.')
                     .next()
                     .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+            if let Some(range) = listing_line(text) {
+                let message = "this looks like a listing, not a case; a case names it with `vs_file` or `ps_file`, or has its text under `vs` or `ps`";
+                problems.error(&rules::SYNTAX, problems.span(range), message);
+                return None;
+            }
             let table = if is_json {
                 json::parse(text, problems)?
             } else {
@@ -90,6 +95,26 @@ impl super::Case {
             warnings: loaded.warnings,
         })
     }
+}
+
+/// The version with which a text begins that is a listing; comments may stand before it.
+fn listing_line(text: &str) -> Option<std::ops::Range<usize>> {
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let word = line.trim();
+        let comment = word.starts_with(';') || word.starts_with("//") || word.starts_with('#');
+        if !word.is_empty() && !comment {
+            let mut letters = word.bytes().map(|letter| letter.to_ascii_lowercase());
+            let version = matches!(letters.next(), Some(b'v' | b'p'))
+                && letters.next() == Some(b's')
+                && matches!(letters.next(), Some(b'.' | b'_'))
+                && letters.next().is_some_and(|letter| letter.is_ascii_digit());
+            let first = start + line.len() - line.trim_start().len();
+            return (version && !word.contains('=')).then_some(first..first + word.len());
+        }
+        start += line.len();
+    }
+    None
 }
 
 /// A case before the lines of its invocations are known.
@@ -372,6 +397,8 @@ struct Parts {
     pixel_constants: Vec<(u32, [f32; 4])>,
     tolerance: Option<f64>,
     expect: Expectation,
+    /// Whether there is something under `expect`, be it wrong.
+    tried: bool,
     accept: Option<Vec<Expectation>>,
 }
 
@@ -385,13 +412,16 @@ impl Parts {
         let count = RegisterFile::Const.count(Version::Ps14);
         parts.pixel_constants = constants(s, "ps_constants", count, problems);
         if let Some(At { value, span }) = s.at::<f64>("tol", problems) {
-            if value >= 0.0 {
+            if value >= 0.0 && value.is_finite() {
                 parts.tolerance = Some(value);
             } else {
-                let message = format!("`tol` is {value}; a tolerance is 0 or more");
+                let message = format!("`tol` is {value}; a tolerance is 0 or more, and finite");
                 problems.error(&rules::VALUE, span, message);
             }
         }
+        parts.tried = s
+            .peek("expect")
+            .is_some_and(|value| !matches!(value, DeValue::Table(table) if table.is_empty()));
         if let Some(table) = s.table("expect", problems) {
             parts.expect = expectation(table, scope, problems);
         }
@@ -446,6 +476,7 @@ impl Parts {
             pixel_constants: joined(&base.pixel_constants, self.pixel_constants),
             tolerance: self.tolerance.or(base.tolerance),
             expect: self.expect.over(&base.expect),
+            tried: self.tried || base.tried,
             accept: self.accept.or_else(|| base.accept.clone()),
         }
     }
@@ -459,7 +490,8 @@ impl Parts {
     ) -> Option<Invocation> {
         if self.expect.is_empty() {
             // What is expected of a listing that is refused has not been read.
-            if scope.known {
+            // A mistake in it, or in its name, is told by itself.
+            if scope.known && !self.tried && !s.has_unknown() {
                 s.missing("an `expect` with at least one register", problems);
             }
             return None;
@@ -509,6 +541,14 @@ fn register(node: Node<'_>, fill: [f32; 4], problems: &mut Problems) -> Option<[
 
 /// A list of one to `most` numbers.
 fn components(node: Node<'_>, most: usize, problems: &mut Problems) -> Option<Vec<f32>> {
+    if !matches!(node.value.get_ref(), DeValue::Array(_)) {
+        let expected = match most {
+            1 => "a number".to_owned(),
+            _ => format!("a number, or a list of one to {most}"),
+        };
+        node.refuse(&expected, problems);
+        return None;
+    }
     let key = node.key.clone();
     let At { value, span } = node.read::<Vec<f32>>(problems)?;
     if (1..=most).contains(&value.len()) {
@@ -572,8 +612,8 @@ fn expectation(mut table: Section<'_>, scope: &Scope, problems: &mut Problems) -
             node.value.get_ref(),
             DeValue::Integer(_) | DeValue::Float(_)
         );
-        let components = if number && most == 1 {
-            node.read::<f32>(problems).map(|at| vec![at.value])
+        let components = if number {
+            node.read::<f32>(problems).map(|at| vec![at.value; most])
         } else {
             components(node, most, problems)
         };

@@ -5,7 +5,9 @@ use crate::exec::{Environment, Machine, Stage, Trace, bind_constants};
 use crate::isa::{RegisterFile, ShaderKind};
 use crate::kernel::{Kernel, Slot};
 use crate::program::Register;
-use crate::raster::{self, LonePixel, Vertex, fog_unit, merge_lone, vertex_outputs};
+use crate::raster::{
+    self, ColorMask, LonePixel, RenderState, Vertex, fog_unit, merge_lone, vertex_outputs,
+};
 use crate::scene::Shader;
 use crate::semantics::saturate;
 
@@ -53,6 +55,9 @@ pub struct Origin {
     pub line: usize,
     /// The instruction, on one line.
     pub text: String,
+    /// How the number comes from the instruction, with what became of the pixel behind the shader: `written by`,
+    /// `discarded by`, `the alpha test rejected the pixel; r0 was written by`.
+    pub how: String,
 }
 
 /// A finished run on the CPU.
@@ -60,6 +65,8 @@ pub struct Origin {
 pub struct Run<'a> {
     /// What came out.
     pub observed: Observed,
+    /// What the fixed function made of `r0`.
+    merging: Option<String>,
     case: &'a Case,
     vertex: Option<Recorded<'a>>,
     pixel: Option<Recorded<'a>>,
@@ -110,6 +117,7 @@ pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
     });
     let mut run = Run {
         observed: Observed::default(),
+        merging: None,
         case,
         vertex,
         pixel,
@@ -130,6 +138,40 @@ pub(super) fn without_vertex_shader(invocation: &Invocation) -> Vertex {
         fog: specular[3],
         point_size: None,
     }
+}
+
+/// What the fixed function did with a shaded pixel other than to store its colour.
+fn merging(
+    state: &RenderState,
+    lone: &LonePixel,
+    clear: [f32; 4],
+    written: bool,
+) -> Option<String> {
+    if !written {
+        // The test that rejects is the first one without which nothing changes once those behind it are off.
+        let passes = |state: &RenderState| merge_lone(state, lone, clear).is_ok_and(|m| m.written);
+        let mut early = state.clone();
+        early.depth.enable = false;
+        let past_stencil = passes(&early);
+        early.stencil.enable = false;
+        let test = match (passes(&early), past_stencil) {
+            (false, _) => "alpha",
+            (true, false) => "stencil",
+            (true, true) => "depth",
+        };
+        return Some(format!("the {test} test rejected the pixel"));
+    }
+    let steps = [
+        (state.fog.enable, "fog"),
+        (state.blend.enable, "blending"),
+        (state.color_mask != ColorMask::ALL, "the colour mask"),
+    ];
+    let steps: Vec<&str> = steps
+        .iter()
+        .filter(|step| step.0)
+        .map(|step| step.1)
+        .collect();
+    (!steps.is_empty()).then(|| format!("after {}", steps.join(" and ")))
 }
 
 fn record<'a>(
@@ -189,7 +231,9 @@ impl Run<'_> {
         let merged = merge_lone(&self.case.state, &lone, clear).unwrap_or(raster::Merged {
             exact: clear,
             stored: [0; 4],
+            written: false,
         });
+        self.merging = merging(&self.case.state, &lone, clear, merged.written);
         let value = |quantity: Quantity| Value {
             quantity,
             numbers: match quantity {
@@ -246,8 +290,13 @@ impl Run<'_> {
     pub fn origin(&self, quantity: Option<Quantity>, component: usize) -> Option<Origin> {
         let Some(quantity) = quantity else {
             let run = self.pixel.as_ref()?;
-            return self.instruction(run, run.trace.killed_by?);
+            let how = "discarded by".to_owned();
+            let origin = self.instruction(run, run.trace.killed_by?)?;
+            return Some(Origin { how, ..origin });
         };
+        if quantity == Quantity::Frame && self.observed.killed {
+            return self.origin(None, component);
+        }
         let (run, slot) = self.place(quantity)?;
         let component = match slot {
             Slot::FOG => run.shader.kernel.fog_component,
@@ -260,7 +309,11 @@ impl Run<'_> {
         let last = writes
             .rev()
             .find(|c| c.mask.components().any(|written| written == component));
-        self.instruction(run, last?.instruction)
+        let mut origin = self.instruction(run, last?.instruction)?;
+        if let (Quantity::Frame, Some(merging)) = (quantity, &self.merging) {
+            origin.how = format!("{merging}; r0 was written by");
+        }
+        Some(origin)
     }
 
     fn instruction(&self, run: &Recorded<'_>, number: usize) -> Option<Origin> {
@@ -273,6 +326,7 @@ impl Run<'_> {
             listing: at.file.to_owned(),
             line: at.line,
             text: format!("{plus}{}", words.join(" ")),
+            how: "written by".to_owned(),
         })
     }
 }

@@ -332,6 +332,77 @@ fn a_discarded_pixel_has_the_instruction_that_discarded_it() {
 }
 
 #[test]
+fn a_wrong_frame_has_what_became_of_the_pixel() {
+    let how = |keys: &str| {
+        let text = format!("{MOV}inputs.v0 = [0.5, 0.5, 0.5, 0.25]\nexpect.frame = [0.75]\n{keys}");
+        match wrong(&text).remove(0) {
+            Wrong::Number { origin, .. } => origin.map(|origin| origin.how).unwrap_or_default(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let behind = |what: &str| format!("{what}; r0 was written by");
+    assert_eq!(how(""), "written by");
+    let alpha = "state = { alpha_test = true, alpha_func = \"greater\", alpha_ref = 128 }";
+    assert_eq!(how(alpha), behind("the alpha test rejected the pixel"));
+    let depth = "state = { z_func = \"never\" }";
+    assert_eq!(how(depth), behind("the depth test rejected the pixel"));
+    let fog = "state = { fog = { color = [0, 0, 1] } }\ninputs.v1 = [0, 0, 0, 0.5]";
+    assert_eq!(how(fog), behind("after fog"));
+    let killed =
+        "ps = \"ps.1.1\\ntexkill t0\\nmov r0, v0\"\ninputs.t0 = [-1]\nexpect.frame = [1]\n";
+    match wrong(killed).remove(0) {
+        Wrong::Number {
+            origin: Some(origin),
+            ..
+        } => {
+            assert_eq!((origin.how.as_str(), origin.line), ("discarded by", 2));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_mistake_in_an_expectation_is_told_alone() {
+    for (keys, said) in [
+        ("expect.r0 = [1, 2, 3, 4, 5]", "`r0` has 5 numbers"),
+        ("expect.r0 = []", "`r0` has 0 numbers"),
+        ("expekt.r0 = [1]", "did you mean `expect`?"),
+        ("expect.r9 = [1]", "[expect] has no `r9`"),
+        (
+            "expect.r0 = \"1\"",
+            "`r0` must be a number, or a list of one to 4, not a text",
+        ),
+        (
+            "expect.frame = true",
+            "`frame` must be a number, or a list of one to 4",
+        ),
+    ] {
+        let error = load("case.toml", &format!("{MOV}{keys}\n")).expect_err("a problem");
+        assert!(error.contains(said), "{error}");
+        assert_eq!(error.matches("error[").count(), 1, "{error}");
+    }
+    refused(&format!("{MOV}[expect]\n"), "needs an `expect`");
+    // A number without a list is all four.
+    passes(&format!("{MOV}inputs.v0 = 0.5\nexpect.r0 = 0.5\n"));
+    for tol in ["inf", "nan"] {
+        refused(
+            &format!("{MOV}expect.r0 = 1\ntol = {tol}\n"),
+            "a tolerance is 0 or more, and finite",
+        );
+    }
+    refused(
+        &format!("{MOV}expect.r0 = 1\nsamplers.0.max_mip_level = -1\n"),
+        "`max_mip_level` is -1; it must be 0 to 4294967295",
+    );
+    let error = load("a.vsh", "; a listing\n\nvs_1_1\nmov oPos, v0\n").expect_err("no case");
+    assert!(
+        error.contains("a.vsh:3:1: error[F1]: this looks like a listing"),
+        "{error}"
+    );
+    assert_eq!(error.matches("error[").count(), 1, "{error}");
+}
+
+#[test]
 fn outputs_of_the_vertex_shader_have_their_instruction_too() {
     let wrong = wrong(
         "vs = \"vs.1.1\\nmov oPos, v0\\nmov oFog.x, v0\"\nps = \"ps.1.1\\nmov r0, v0\"\ninputs.v0 = [0.5, 0, 4, 8]\n\

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 use texcrd::case::{Case, CaseError, Invocation, OnGpu, Origin, Verdict, Wrong};
-use texcrd::gpu::GpuError;
+use texcrd::gpu::{Device, GpuError};
 use texcrd::policy::Dialect;
 use texcrd::scene::{DirectoryResolver, LoadOptions};
 
@@ -127,8 +127,16 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     }
     let mut counts = Counts::default();
     let mut failures = String::new();
+    // What ends the run early; what ran before is told all the same.
+    let mut stopped = None;
     for path in &paths {
-        let bytes = files::read(path)?;
+        let bytes = match files::read(path) {
+            Ok(bytes) => bytes,
+            Err(failure) => {
+                stopped = Some(failure);
+                break;
+            }
+        };
         let folder = Path::new(path).parent().unwrap_or(Path::new(""));
         let options = LoadOptions {
             dialect: arguments.dialect,
@@ -151,8 +159,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
                     (*side, verdicts)
                 });
                 let runs: Vec<SideRun> = runs.collect();
-                if let Some((_, Err(lost @ GpuError::Lost(_)))) = runs.last() {
-                    return Err(Failure::Io(format!("{path}: {lost}")));
+                if let Some((_, Err(error))) = runs.last()
+                    && let Some(message) = fatal(path, error, device.as_ref())
+                {
+                    stopped = Some(Failure::Io(message));
+                    break;
                 }
                 Ok((case, runs))
             }
@@ -175,6 +186,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         }
     }
     if counts.passed + counts.failed == 0 {
+        if let Some(failure) = stopped {
+            return Err(failure);
+        }
         let what = match &arguments.filter {
             Some(text) => format!("no case has `{text}` in its path or name"),
             None => "there are no cases".to_owned(),
@@ -188,10 +202,26 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let adapter = device.map(|device| device.adapter().to_string());
         print(&counts.summary(arguments.on, adapter.as_deref()))?;
     }
+    if let Some(failure) = stopped {
+        return Err(failure);
+    }
     if counts.failed > 0 {
         return Err(Failure::Rejected);
     }
     Ok(())
+}
+
+/// What is told where an error of the GPU is one that the cases behind would meet as well.
+fn fatal(path: &str, error: &GpuError, device: Option<&Device>) -> Option<String> {
+    let adapter = device?.adapter();
+    match error {
+        GpuError::Lost(_) => Some(format!("{path}: {error}")),
+        GpuError::Limit { .. } if !adapter.float_targets => Some(format!(
+            "{path}: the adapter {adapter} cannot draw into 32-bit floats, in which registers are looked at; \
+             it runs only cases that expect nothing but `frame`"
+        )),
+        _ => None,
+    }
 }
 
 /// The cases below a folder.
@@ -364,18 +394,17 @@ fn told(wrong: &Wrong) -> String {
                 place.push('.');
                 place.push(letter);
             }
-            // A difference of many digits says no more than one of a few.
             let difference = if difference.is_finite() {
-                // Likewise of a tolerance that was worked out.
-                let tolerance = format!("{tolerance:.3e}").replace(".000", "");
-                format!(", off by {difference:.3e} (tolerance {tolerance})")
+                let [difference, tolerance] = [*difference, *tolerance].map(number);
+                format!(", off by {difference} (tolerance {tolerance})")
             } else {
                 String::new()
             };
             let born = match origin {
-                Some(origin) => format!("written by {}", place_of(origin)),
+                Some(origin) => format!("{} {}", origin.how, place_of(origin)),
                 None => "no instruction writes it".to_owned(),
             };
+            let [expected, actual] = [*expected, *actual].map(|x| number(x.into()));
             format!(
                 "  {place:<7} expected {expected}, got {actual}{difference}\n          {born}\n"
             )
@@ -385,10 +414,23 @@ fn told(wrong: &Wrong) -> String {
         }
         Wrong::Killed { origin, .. } => {
             let by = origin.as_ref().map_or_else(String::new, |origin| {
-                format!("\n          discarded by {}", place_of(origin))
+                format!("\n          {} {}", origin.how, place_of(origin))
             });
             format!("  killed  expected false{by}\n")
         }
+    }
+}
+
+/// A number with the digits that tell it from other 32-bit floats: very small and very large ones with an exponent.
+fn number(exact: f64) -> String {
+    let short = exact as f32;
+    match short.abs() {
+        // The difference of two floats may be larger than any of them.
+        size if size.is_infinite() && exact.is_finite() => format!("{exact:.3e}"),
+        size if size != 0.0 && size.is_finite() && !(1e-5..1e7).contains(&size) => {
+            format!("{short:e}")
+        }
+        _ => short.to_string(),
     }
 }
 
@@ -397,6 +439,7 @@ fn place_of(origin: &Origin) -> String {
         listing,
         line,
         text,
+        ..
     } = origin;
     format!("`{text}` ({listing}, line {line})")
 }
@@ -492,7 +535,8 @@ fn wrong_json(wrong: &Wrong) -> Value {
             listing,
             line,
             text,
-        }) => json!({ "listing": listing, "line": line, "text": text }),
+            how,
+        }) => json!({ "listing": listing, "line": line, "text": text, "how": how }),
         None => Value::Null,
     };
     object

@@ -71,7 +71,7 @@ impl fmt::Display for GpuError {
             Self::Refused { adapter, reason } => {
                 write!(f, "the adapter {adapter} gives no device: {reason}")
             }
-            Self::Limit { what, limit } => write!(f, "{what} is too much for this device: {limit}"),
+            Self::Limit { what, limit } => write!(f, "this device cannot hold {what}: {limit}"),
             Self::Unsupported { draw, state } => {
                 write!(f, "draw `{draw}`: {state} cannot be had on this device")
             }

@@ -34,6 +34,11 @@ pub(super) struct Rows {
 }
 
 impl Rows {
+    /// Whether the first two pixels are those of a pixel shader.
+    pub(super) fn has_pixel(self) -> bool {
+        self.vertex >= 2
+    }
+
     pub(super) fn of(translation: &Translation, look: Look) -> Self {
         let reflection = &translation.reflection;
         let has_pixel = reflection.pixel.is_some();

@@ -47,8 +47,11 @@ pub struct InvocationInputs {
 pub struct Seen {
     /// What the pixel shader returns, not clamped, also for a pixel that is discarded.
     pub color: [f32; 4],
-    /// The depth in the depth buffer, 32-bit floats from 0 to 1; none if the pixel was discarded.
-    pub depth: Option<f32>,
+    /// Whether the pixel was discarded.
+    pub killed: bool,
+    /// The depth that the depth buffer, of 32-bit floats from 0 to 1, gets, or would get of a pixel that is discarded.
+    /// 0 without a pixel shader.
+    pub depth: f32,
     /// The registers of the vertex shader that were asked for.
     pub vertex: Vec<[f32; 4]>,
     /// Those of the pixel shader.
@@ -110,7 +113,12 @@ impl<'d> Invocations<'d> {
                     |range: std::ops::Range<usize>| texels.get(range).unwrap_or_default().to_vec();
                 Seen {
                     color: texels.get(1).copied().unwrap_or_default(),
-                    depth: (texels[0] != [0.0; 4]).then(|| depths[0]),
+                    killed: rows.has_pixel() && texels[0] == [0.0; 4],
+                    // The second pixel is that of the first one, not discarded.
+                    depth: match rows.has_pixel() {
+                        true => depths.get(1).copied().unwrap_or_default(),
+                        false => 0.0,
+                    },
                     vertex: of(rows.vertex..rows.pixel),
                     pixel: of(rows.pixel..rows.count),
                 }

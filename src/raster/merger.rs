@@ -240,6 +240,8 @@ pub struct Merged {
     pub exact: [f32; 4],
     /// The colour as a target of 8 bits a channel stores it.
     pub stored: [u8; 4],
+    /// Whether the pixel reached the target: it was not killed, and no test rejected it.
+    pub written: bool,
 }
 
 /// Takes one pixel through fog, alpha test, depth and stencil test, blending and the colour write mask, into a target
@@ -286,7 +288,11 @@ pub fn merge_lone(
         }
     }
     let stored = target.color(0, 0).unwrap_or_default();
-    Ok(Merged { exact, stored })
+    Ok(Merged {
+        exact,
+        stored,
+        written: written > 0,
+    })
 }
 
 /// 0 to 1 as 0 to 255, to the nearest (of two equally near ones the even).

@@ -179,6 +179,11 @@ impl<'i> Section<'i> {
         self.nodes.iter().any(|node| node.key == key)
     }
 
+    /// Whether there are keys left that nobody has asked for.
+    pub(crate) fn has_unknown(&self) -> bool {
+        !self.nodes.is_empty()
+    }
+
     /// Takes out everything that is left, for tables whose keys are names.
     pub(crate) fn rest(&mut self) -> Vec<Node<'i>> {
         std::mem::take(&mut self.nodes)

@@ -181,7 +181,13 @@ pub(crate) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
         min,
         mip: s.named("mip", default.mip, problems),
         lod_bias: s.or("lod_bias", default.lod_bias, problems),
-        max_mip_level: s.or("max_mip_level", default.max_mip_level, problems),
+        // Read wider than it is, so that one below 0 is told with its range.
+        max_mip_level: s.ranged(
+            "max_mip_level",
+            0..=i64::from(u32::MAX),
+            default.max_mip_level.into(),
+            problems,
+        ) as u32,
         border: s.array_or("border", default.border, problems),
         seamless: s.or("seamless", default.seamless, problems),
     }

@@ -234,6 +234,19 @@ fn registers_of_discarded_pixels() {
     passes(&mut OnGpu::new(&device), text);
 }
 
+/// The depth that the shader gives counts for a discarded pixel too: 1/2 by `texdepth`, which divides red by green.
+#[test]
+fn the_depth_of_a_discarded_pixel() {
+    let Some(device) = crate::device() else {
+        return;
+    };
+    let text = "ps = \"ps.1.4\\ntexcrd r5.rgb, t0\\nphase\\ntexdepth r5\\ntexkill t1\\nmov r0, v0\"
+         inputs.t0 = [1, 2, 0]
+         inputs.t1 = [-1, 2, 0]
+         expect = { depth = 0.5, killed = true }";
+    passes(&mut OnGpu::new(&device), text);
+}
+
 /// Mip levels, filters, a border and a cube in one listing. Stage 0: level 1 of two, as `max_mip_level` says. Stage 1:
 /// halfway between two columns. Stage 2: the border, two texels beside the edge. Stage 3: −Z in the middle.
 #[test]

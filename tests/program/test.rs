@@ -44,7 +44,7 @@ fn failures_are_told_with_the_instruction() {
     assert!(lines[3].starts_with("ok ") && lines[3].ends_with("a.toml: a copy"));
     for said in [
         "it gave result 1 of `accept`",
-        "r0.r    expected 0.75, got 0.5, off by 2.500e-1 (tolerance 1e-6)",
+        "r0.r    expected 0.75, got 0.5, off by 0.25 (tolerance 1e-6)",
         "written by `mov r0, v0`",
         "b.toml, `ps`, line 2",
         "c.toml has no key `input`",
@@ -126,6 +126,31 @@ fn what_cannot_be_read_is_no_failure_of_a_case() {
     let ran = texcrd(&["test", "-", "--adapter", "0"]);
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("--on gpu or --on both"), "{}", ran.err);
+}
+
+#[test]
+fn what_ran_before_a_file_that_cannot_be_read_is_told() {
+    let folder = folder("test-unread");
+    let good = folder.join("good.toml").display().to_string();
+    fs::write(&good, GOOD).unwrap();
+    let ran = texcrd(&["test", &good, "there/is/no/such.toml"]);
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert!(ran.out.ends_with("1 passed, 0 failed\n"), "{}", ran.out);
+    assert!(ran.err.contains("such.toml"), "{}", ran.err);
+}
+
+#[test]
+fn numbers_are_told_with_few_digits() {
+    let text = "vs = \"vs.1.1\\nmov oPos, v0\"\ninputs.v0 = [2147483520, 1e-20, 0.5, 0]\nexpect.oPos = [2147483648, 1, 0.25]\n";
+    let ran = texcrd_with_input(&["test", "-"], text.as_bytes());
+    for said in [
+        // The float below 2^31 is 128 less.
+        "expected 2.1474836e9, got 2.1474835e9, off by 128 (tolerance 1e-6)",
+        "expected 1, got 1e-20, off by 1 (",
+        "expected 0.25, got 0.5, off by 0.25 (",
+    ] {
+        assert!(ran.out.contains(said), "{said}: {}", ran.out);
+    }
 }
 
 #[test]
