@@ -4,6 +4,7 @@
 //! failed; 2 usage or input and output.
 
 mod adapters;
+mod baked;
 mod check;
 mod compare;
 mod diagnostics;

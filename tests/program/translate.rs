@@ -85,6 +85,55 @@ fn glsl_has_a_file_a_stage() {
     }
 }
 
+/// Each switch leaves its mark where the documentation of the translation says, and none without a shader to work on.
+#[test]
+fn states_are_baked_in() {
+    let folder = folder("translate_states_are_baked_in");
+    let path = |name: &str, text: &str| {
+        let path = folder.join(name);
+        std::fs::write(&path, text).expect("a file can be written");
+        path.to_string_lossy().into_owned()
+    };
+    let vertex = path(
+        "a.vsh",
+        "vs.1.1\nmov oPos, v0\nmov oT0, v1\nmov oD0, v2\nmov oPts.x, v3.x\n",
+    );
+    let pixel = path("a.psh", "ps.1.1\ntex t0\nmul r0, t0, v0\n");
+    for (switches, mark) in [
+        (&["--projected", "0"][..], "in.t0.w"),
+        (
+            &["--texture", "0=cube", "--seamless", "0"],
+            "texture0: texture_cube<f32>",
+        ),
+        (&["--address", "0=border"], "border"),
+        (&["--lod-bias", "0"], "lod_bias"),
+        (&["--flat-shading"], "@interpolate(flat"),
+        (&["--points", "sprites"], "@builtin(vertex_index)"),
+        (&["--clip-planes", "2"], "clip_plane"),
+        (&["--fog", "linear"], "fog"),
+        (&["--alpha-test", "less"], "alpha_ref"),
+    ] {
+        let translated = |switches: &[&str]| {
+            let ran = texcrd(&[&["translate", &vertex, &pixel], switches].concat());
+            assert_eq!(ran.status, 0, "{switches:?}: {}", ran.err);
+            ran.out
+        };
+        let text = translated(switches);
+        assert!(text.contains(mark), "{switches:?}:\n{text}");
+        assert!(!translated(&[]).contains(mark), "{mark} is always there");
+    }
+    for (file, switches, message) in [
+        (&vertex, &["--projected", "0"][..], "needs a pixel shader"),
+        (&pixel, &["--clip-planes", "1"], "needs a vertex shader"),
+        (&pixel, &["--address", "9=wrap"], "stages 0 to 7"),
+        (&pixel, &["--clip-planes", "7"], "7"),
+    ] {
+        let ran = texcrd(&[&["translate", file.as_str()], switches].concat());
+        assert_eq!(ran.status, 2, "{switches:?}: {}", ran.err);
+        assert!(ran.err.contains(message), "{switches:?}: {}", ran.err);
+    }
+}
+
 /// Neither half of a pair is written where the other cannot be, and no listing is written over.
 #[test]
 fn nothing_is_lost() {
