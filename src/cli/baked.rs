@@ -209,8 +209,8 @@ impl Baked {
         for (number, stage) in options.stages.iter_mut().enumerate() {
             stage.seamless = self.seamless.contains(&number);
             stage.lod_bias = self.lod_bias.contains(&number);
-            let modes = self.addresses.iter().filter(|(of, _)| *of == number);
-            if let Some((_, mode)) = modes.last() {
+            let mut modes = self.addresses.iter().filter(|(of, _)| *of == number);
+            if let Some((_, mode)) = modes.next_back() {
                 stage.address = [*mode; 3];
             }
         }
