@@ -403,11 +403,27 @@ fn heading(parts: &[&Part<'_>], bindings: &[Binding], options: &Options) -> Stri
         _ = write!(text, "//   group {group}, binding {number}: {name}, ");
         _ = match &binding.resource {
             Resource::Uniform { stage, size, .. } => {
-                let stage = match stage {
+                let name = match stage {
                     ShaderKind::Vertex => "vertex",
                     ShaderKind::Pixel => "pixel",
                 };
-                writeln!(text, "uniform block of the {stage} shader, {size} bytes")
+                _ = writeln!(text, "uniform block of the {name} shader, {size} bytes");
+                let of_stage = parts.iter().filter(|part| part.kind() == *stage);
+                let mut moved = of_stage
+                    .flat_map(|part| &part.reflection.definitions)
+                    .filter(|definition| definition.in_uniform);
+                // Whoever fills the block reads this first.
+                moved.try_for_each(
+                    |Definition {
+                         register, value, ..
+                     }| {
+                        let [x, y, z, w] = value;
+                        writeln!(
+                            text,
+                            "//     c{register} is {x:?}, {y:?}, {z:?}, {w:?} by its def"
+                        )
+                    },
+                )
             }
             Resource::Texture { stage, dimension } => {
                 let about = match dimension {

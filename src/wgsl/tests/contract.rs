@@ -311,6 +311,23 @@ fn registers_can_be_looked_at() {
     );
 }
 
+/// Relative addressing reads the block, so that what `def` gives has to be put there: the first lines say so.
+#[test]
+fn moved_definitions_are_told_where_the_block_is() {
+    let listing = "vs.1.1\ndef c7, 1, -0.5, 0, 2\nmov a0.x, v0.x\nmov oPos, c[a0.x]\n";
+    let source = valid(listing, &Options::default()).source;
+    let head = source.split("struct").next().unwrap_or_default();
+    assert!(
+        head.contains("c7 is 1.0, -0.5, 0.0, 2.0 by its def"),
+        "{head}"
+    );
+    let fixed = valid(
+        "vs.1.1\ndef c7, 1, -0.5, 0, 2\nmov oPos, c7\n",
+        &Options::default(),
+    );
+    assert!(!fixed.source.contains("by its def"), "{}", fixed.source);
+}
+
 /// 65536 times 65536 is finite; what may be anything needs the rule that 0 times anything is 0.
 #[test]
 fn wild_inputs_are_guarded() {
