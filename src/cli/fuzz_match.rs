@@ -1,6 +1,6 @@
 //! `fuzz-match`: generated shaders on the CPU and on a GPU.
 
-use super::{Failure, Format, Outcome, generate, print, print_json, scene};
+use super::{Failure, Format, Outcome, filters, generate, print, print_json, scene};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -113,9 +113,8 @@ fn devices(arguments: &Arguments) -> Result<Vec<Device>, Failure> {
 /// What may be asked of a device. Mesa's software adapter filters with 8 bits, results included, unless it is told not to:
 /// then a sample may be off by 1.5 steps of 1/255.
 fn precision(device: &Device) -> Precision {
-    let told = std::env::var("GALLIVM_PERF").is_ok_and(|v| v.contains("no_aos_sampling"));
     let usual = Precision::default();
-    match device.adapter().name.contains("llvmpipe") && !told {
+    match device.adapter().name.contains("llvmpipe") && !filters::are_exact() {
         true => Precision {
             sample: 1.5 / 255.0,
             ..usual

@@ -10,6 +10,7 @@ mod compare;
 mod diagnostics;
 mod eval;
 mod files;
+mod filters;
 mod fuzz_match;
 mod generate;
 mod reflect;
@@ -88,7 +89,13 @@ type Outcome = Result<(), Failure>;
 
 /// Parses the arguments and runs the command.
 pub(crate) fn main() -> ExitCode {
-    let outcome = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    if let Command::Compare(_) | Command::FuzzMatch(_) | Command::Run(_) | Command::Test(_) =
+        command
+    {
+        filters::make_exact();
+    }
+    let outcome = match command {
         Command::Adapters(arguments) => adapters::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -54,7 +54,11 @@ impl Options {
     /// These options with what of the render states is baked in.
     #[must_use]
     pub fn with_state(self, state: &RenderState) -> Self {
+        let fog = &state.fog;
+        let wild = |number: f32| !number.is_finite();
         Self {
+            wild_inputs: self.wild_inputs
+                || (fog.enable && [fog.start, fog.end, fog.density].into_iter().any(wild)),
             fog: state.fog.enable.then_some(Fog {
                 table: state.fog.table,
                 distance: state.fog.distance,

@@ -144,8 +144,8 @@ fn shown(body: &Body<'_>, picture: &RegisterPicture) -> String {
 /// The condition under which the alpha test takes the pixel out, in 8 bits as the target has them.
 fn alpha_fails(body: &mut Body<'_>, compare: Compare) -> Option<String> {
     let fails = match compare {
-        Compare::Always => return None,
-        Compare::Never => return None,
+        // What never passes is discarded as a whole.
+        Compare::Always | Compare::Never => return None,
         Compare::Less => ">=",
         Compare::Equal => "!=",
         Compare::LessEqual => ">",
