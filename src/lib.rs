@@ -8,6 +8,7 @@
 
 #[cfg(feature = "scene")]
 pub mod case;
+pub mod debug;
 pub mod diagnostic;
 pub mod exec;
 pub mod generate;

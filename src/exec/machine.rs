@@ -5,12 +5,20 @@ use crate::isa::{SourceModifier, Swizzle, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::semantics::{self, Finish};
 use crate::texture::sample_quads;
+use std::ops::Range;
 
 /// A register of `N` lanes, component by component.
 pub type Lanes<const N: usize> = [[f32; N]; 4];
 
-/// Sees what a run writes.
+/// Sees what a run reads and writes.
 pub trait Observer<const N: usize> {
+    /// A step has been computed: what its operands read, modifiers applied, and the result before shift, saturation and
+    /// mask. Slots that the step does not use hold anything.
+    #[inline(always)]
+    fn computed(&mut self, step: usize, sources: &[Lanes<N>; 3], result: &Lanes<N>) {
+        let _ = (step, sources, result);
+    }
+
     /// A step has been written. Steps that are held are told when they are written, in their order.
     ///
     /// `step` is its number in the kernel, `before` and `after` the whole destination register.
@@ -103,22 +111,52 @@ impl<const N: usize> Machine<N> {
         instructions: usize,
         observer: &mut impl Observer<N>,
     ) {
+        self.prepare(kernel);
+        let end = (kernel.steps.iter()).position(|step| step.origin >= instructions);
+        let steps = 0..end.unwrap_or(kernel.steps.len());
+        self.run_steps(kernel, environment, steps, observer);
+    }
+
+    /// Loads what a kernel expects before its first step; nothing is killed yet. [`Self::run`] does it by itself.
+    #[inline]
+    pub fn prepare(&mut self, kernel: &Kernel) {
         self.killed = [false; N];
         for (slot, value) in &kernel.presets {
             self.load(*slot, *value);
         }
+    }
+
+    /// Runs some steps of a kernel and goes on from what the registers hold. What is held at the end of the range is written;
+    /// steps beyond the end of the kernel are none.
+    #[inline]
+    pub fn run_steps(
+        &mut self,
+        kernel: &Kernel,
+        environment: &Environment<'_>,
+        steps: Range<usize>,
+        observer: &mut impl Observer<N>,
+    ) {
         let mut held: [(usize, Lanes<N>); MOST_HELD] = [(0, [[0.0; N]; 4]); MOST_HELD];
         let mut waiting = 0;
-        for (number, step) in kernel.steps.iter().enumerate() {
-            if step.origin >= instructions {
-                break;
-            }
+        let range = steps.start..steps.end.min(kernel.steps.len());
+        let first = range.start;
+        for (place, step) in kernel
+            .steps
+            .get(range)
+            .unwrap_or_default()
+            .iter()
+            .enumerate()
+        {
+            let number = first + place;
+            let sources = self.sources(step, environment);
             if step.op == Op::Kill {
-                self.kill(step, environment);
+                self.kill(&sources[0]);
+                observer.computed(number, &sources, &[[0.0; N]; 4]);
                 observer.killed(number, &self.killed);
                 continue;
             }
-            let result = self.compute(step, environment);
+            let result = Self::compute(step, &sources, environment);
+            observer.computed(number, &sources, &result);
             if step.held && waiting < MOST_HELD {
                 held[waiting] = (number, result);
                 waiting += 1;
@@ -155,8 +193,7 @@ impl<const N: usize> Machine<N> {
         observer.wrote(number, &before, register);
     }
 
-    fn kill(&mut self, step: &Step, environment: &Environment<'_>) {
-        let [s0, ..] = self.sources(step, environment);
+    fn kill(&mut self, s0: &Lanes<N>) {
         for (lane, killed) in self.killed.iter_mut().enumerate() {
             // −0 and NaN do not kill.
             *killed |= s0[..3].iter().any(|component| component[lane] < 0.0);
@@ -216,9 +253,10 @@ impl<const N: usize> Machine<N> {
     }
 
     /// The result of a step before it is finished. Components outside of the mask may hold anything.
-    fn compute(&self, step: &Step, environment: &Environment<'_>) -> Lanes<N> {
+    #[inline]
+    fn compute(step: &Step, sources: &[Lanes<N>; 3], environment: &Environment<'_>) -> Lanes<N> {
         let mask = step.mask;
-        let [a, b, c] = &self.sources(step, environment);
+        let [a, b, c] = sources;
         match step.op {
             Op::Mov => *a,
             Op::Add => each(mask, |k, l| a[k][l] + b[k][l]),

@@ -8,7 +8,7 @@ pub const XYZW: [char; 4] = ['x', 'y', 'z', 'w'];
 pub const RGBA: [char; 4] = ['r', 'g', 'b', 'a'];
 
 /// Which components an instruction writes: bit 0 is x (r), bit 3 is w (a).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct WriteMask(u8);
 
 impl WriteMask {

@@ -1,0 +1,28 @@
+//! The debugger: what a shader did to one vertex, one pixel or one set of values, moment by moment, forwards and backwards.
+//!
+//! A [`Run`] is a recorded invocation: its registers before the first moment, and a row of [`Moment`]s, each with what it read
+//! and the value of what it wrote before and after. So a step back costs what a step forward costs, and nobody who shows a run
+//! has to know what an instruction means. The moments before the first instruction tell where the inputs came from, those
+//! behind the last one what becomes of the outputs.
+//!
+//! A [`Session`] holds the runs of one [`Subject`], for a pixel those of its three vertices and its own, and a [`Position`] in
+//! them. Every front (command line, terminal, editor) drives a session; none has knowledge of its own about shaders.
+//!
+//! Files: `moment` (what happens), `run` (a recorded invocation and its registers), `record` (how it is recorded), `subject`
+//! (what can be debugged), `session` (where one is, and how one moves).
+
+mod given;
+mod moment;
+mod record;
+mod run;
+mod session;
+mod subject;
+#[cfg(test)]
+mod tests;
+
+pub use given::{Given, GivenError};
+pub use moment::{Change, Event, Flags, InputSource, Moment, Quad, Read, Sample, Target};
+pub use record::{Edit, Input, Invocation, record};
+pub use run::{Listing, Registers, Run, RunKind};
+pub use session::{Direction, Position, Session};
+pub use subject::{ListingSubject, Subject};
