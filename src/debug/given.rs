@@ -58,7 +58,15 @@ impl Given {
             [x, y, z, w] => [x, y, z, w],
             _ => return Err(GivenError::Numbers),
         };
-        let (file, index) = register(name.trim()).ok_or(GivenError::Name)?;
+        let (file, index) = RegisterFile::named(name.trim()).ok_or(GivenError::Name)?;
+        let given = [
+            RegisterFile::Input,
+            RegisterFile::Texture,
+            RegisterFile::Const,
+        ];
+        if !given.contains(&file) {
+            return Err(GivenError::Name);
+        }
         if index >= most(file, version) {
             return Err(GivenError::NoRegister {
                 version,
@@ -114,17 +122,4 @@ fn most(file: RegisterFile, version: Version) -> u32 {
         (RegisterFile::Const, ShaderKind::Vertex) => MOST_VERTEX_CONSTANTS,
         _ => file.count(version),
     }
-}
-
-fn register(name: &str) -> Option<(RegisterFile, u32)> {
-    let files = [
-        RegisterFile::Input,
-        RegisterFile::Texture,
-        RegisterFile::Const,
-    ];
-    files.into_iter().find_map(|file| {
-        let (prefix, index) = name.split_at_checked(file.row().prefix.len())?;
-        let fits = prefix.eq_ignore_ascii_case(file.row().prefix);
-        Some((file, index.parse().ok().filter(|_| fits)?))
-    })
 }

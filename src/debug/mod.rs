@@ -8,9 +8,13 @@
 //! A [`Session`] holds the runs of one [`Subject`], for a pixel those of its three vertices and its own, and a [`Position`] in
 //! them. Every front (command line, terminal, editor) drives a session; none has knowledge of its own about shaders.
 //!
+//! What one asks is an [`Expression`] over the registers of a moment.
+//!
 //! Files: `moment` (what happens), `run` (a recorded invocation and its registers), `record` (how it is recorded), `subject`
-//! (what can be debugged), `session` (where one is, and how one moves).
+//! (what can be debugged), `session` (where one is, and how one moves),
+//! `expression` (the language of `print`, of conditions and of log messages).
 
+mod expression;
 mod given;
 mod moment;
 mod record;
@@ -20,6 +24,9 @@ mod subject;
 #[cfg(test)]
 mod tests;
 
+pub use expression::{
+    Expression, ExpressionError, Format, LogMessage, Scope, Value, function_names, number_text,
+};
 pub use given::{Given, GivenError};
 pub use moment::{Change, Event, Flags, InputSource, Moment, Quad, Read, Sample, Target};
 pub use record::{Edit, Input, Invocation, record};

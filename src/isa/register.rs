@@ -165,6 +165,21 @@ impl RegisterFile {
         name
     }
 
+    /// The register that listings write like this, in letters of either case, whether a version has it or not: the other way from
+    /// [`Self::register_name`].
+    pub fn named(name: &str) -> Option<(Self, u32)> {
+        if let Some(i) = RAST_OUT.iter().position(|n| n.eq_ignore_ascii_case(name)) {
+            return Some((Self::RastOut, i as u32));
+        }
+        let files = Self::all().filter(|file| *file != Self::RastOut);
+        files.into_iter().find_map(|file| {
+            let (letters, digits) = name.split_at_checked(file.row().prefix.len())?;
+            let fits = letters.eq_ignore_ascii_case(file.row().prefix)
+                && digits.bytes().all(|b| b.is_ascii_digit());
+            Some((file, digits.parse().ok().filter(|_| fits)?))
+        })
+    }
+
     /// The set that holds only this file.
     pub const fn only(self) -> FileSet {
         FileSet(1 << self as u8)

@@ -3,7 +3,6 @@
 use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
 use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
-use crate::isa::register::RAST_OUT;
 use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
 use crate::program::Usage;
 
@@ -203,8 +202,8 @@ pub(super) enum Name {
 
 /// The register that a word names, whether the version has it or not.
 pub(super) fn exact_register(stem: &str) -> Option<Name> {
-    if let Some(i) = RAST_OUT.iter().position(|n| n.eq_ignore_ascii_case(stem)) {
-        return Some(Name::Register(RegisterFile::RastOut, i as u32));
+    if let Some((file, number)) = RegisterFile::named(stem) {
+        return Some(Name::Register(file, number));
     }
     let of_file = |file: RegisterFile| {
         let prefix = file.row().prefix;
@@ -212,12 +211,11 @@ pub(super) fn exact_register(stem: &str) -> Option<Name> {
         let fits = letters.eq_ignore_ascii_case(prefix)
             && digits.bytes().all(|b| b.is_ascii_digit())
             && file != RegisterFile::RastOut;
-        let name = || match digits.parse() {
-            _ if digits.is_empty() => Name::File(file),
-            Ok(number) => Name::Register(file, number),
-            Err(_) => Name::TooLarge,
+        let name = match digits {
+            "" => Name::File(file),
+            _ => Name::TooLarge,
         };
-        fits.then(name)
+        fits.then_some(name)
     };
     RegisterFile::all().find_map(of_file)
 }
