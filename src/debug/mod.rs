@@ -9,7 +9,7 @@
 //! them. Every front (command line, terminal, editor) drives a session; none has knowledge of its own about shaders.
 //!
 //! Files: `moment` (what happens), `run` (a recorded invocation and its registers), `record` (how it is recorded), `subject`
-//! (what can be debugged), `session` (where one is, and how one moves).
+//! (what can be debugged), `session` (where one is, and how one moves), `why` (what made a value).
 
 mod given;
 mod moment;
@@ -19,6 +19,7 @@ mod session;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod why;
 
 pub use given::{Given, GivenError};
 pub use moment::{Change, Event, Flags, InputSource, Moment, Quad, Read, Sample, Target};
@@ -26,3 +27,4 @@ pub use record::{Edit, Input, Invocation, record};
 pub use run::{Listing, Registers, Run, RunKind};
 pub use session::{Direction, Position, Session};
 pub use subject::{ListingSubject, Subject};
+pub use why::{Cause, Slice, why};
