@@ -6,7 +6,7 @@ use crate::isa::{RegisterFile, ShaderKind};
 use crate::kernel::{Kernel, Slot};
 use crate::program::Register;
 use crate::raster::{
-    self, ColorMask, LonePixel, RenderState, Vertex, fog_unit, merge_lone, vertex_outputs,
+    self, ColorMask, Fate, LonePixel, RenderState, Vertex, fog_unit, merge_lone, vertex_outputs,
 };
 use crate::scene::Shader;
 use crate::semantics::saturate;
@@ -141,25 +141,14 @@ pub(super) fn without_vertex_shader(invocation: &Invocation) -> Vertex {
 }
 
 /// What the fixed function did with a shaded pixel other than to store its colour.
-fn merging(
-    state: &RenderState,
-    lone: &LonePixel,
-    clear: [f32; 4],
-    written: bool,
-) -> Option<String> {
-    if !written {
-        // The test that rejects is the first one without which nothing changes once those behind it are off.
-        let passes = |state: &RenderState| merge_lone(state, lone, clear).is_ok_and(|m| m.written);
-        let mut early = state.clone();
-        early.depth.enable = false;
-        let past_stencil = passes(&early);
-        early.stencil.enable = false;
-        let test = match (passes(&early), past_stencil) {
-            (false, _) => "alpha",
-            (true, false) => "stencil",
-            (true, true) => "depth",
-        };
-        return Some(format!("the {test} test rejected the pixel"));
+fn merging(state: &RenderState, fate: Fate) -> Option<String> {
+    match fate {
+        Fate::Written => {}
+        // That is told of the instruction that did it.
+        Fate::Killed => return None,
+        Fate::AlphaTest | Fate::Stencil | Fate::Depth => {
+            return Some(format!("the {} test rejected the pixel", fate.name()));
+        }
     }
     let steps = [
         (state.fog.enable, "fog"),
@@ -231,9 +220,9 @@ impl Run<'_> {
         let merged = merge_lone(&self.case.state, &lone, clear).unwrap_or(raster::Merged {
             exact: clear,
             stored: [0; 4],
-            written: false,
+            fate: Fate::Killed,
         });
-        self.merging = merging(&self.case.state, &lone, clear, merged.written);
+        self.merging = merging(&self.case.state, merged.fate);
         let value = |quantity: Quantity| Value {
             quantity,
             numbers: match quantity {

@@ -11,8 +11,8 @@
 //! What one asks is an [`Expression`] over the registers of a moment.
 //!
 //! Files: `moment` (what happens), `run` (a recorded invocation and its registers), `record` (how it is recorded), `subject`
-//! (what can be debugged), `session` (where one is, and how one moves),
-//! `expression` (the language of `print`, of conditions and of log messages).
+//! (what can be debugged), `session` (where one is, and how one moves), `expression` (the language of `print`, of conditions and
+//! of log messages), `why` (what made a value).
 
 mod expression;
 mod given;
@@ -23,6 +23,7 @@ mod session;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod why;
 
 pub use expression::{
     Expression, ExpressionError, Format, LogMessage, Scope, Value, function_names, number_text,
@@ -33,3 +34,4 @@ pub use record::{Edit, Input, Invocation, record};
 pub use run::{Listing, Registers, Run, RunKind};
 pub use session::{Direction, Position, Session};
 pub use subject::{ListingSubject, Subject};
+pub use why::{Cause, Slice, why};

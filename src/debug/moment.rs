@@ -63,7 +63,7 @@ pub enum InputSource {
 }
 
 /// What is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Target {
     /// A register of the invocation.
     Slot(Slot),

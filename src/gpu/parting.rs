@@ -7,7 +7,7 @@ use crate::diagnostic::Span;
 use crate::isa::WriteMask;
 use crate::kernel::{Kernel, Op, Place, Slot, Step};
 use crate::raster::{Fate, PixelTrace};
-use crate::scene::{PixelEvent, PreparedDraw, Rendering, Scene};
+use crate::scene::{Output, PixelEvent, PixelHistory, PreparedDraw, Rendering, Scene};
 
 /// A register, or a part of it, on both paths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,8 +154,8 @@ impl FragmentComparison {
 pub struct PixelComparison {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Everything that covers it on the CPU, in the order of drawing.
-    pub events: Vec<PixelEvent>,
+    /// Everything that covers it on the CPU.
+    pub history: PixelHistory,
     /// What of it may be seen, compared: from the last that is not blended on, at most [`MOST_FRAGMENTS`].
     pub fragments: Vec<FragmentComparison>,
 }
@@ -177,41 +177,37 @@ pub fn compare_pixel(
     gpu: &mut Frame<'_, '_>,
     pixel: [u32; 2],
 ) -> Result<PixelComparison, GpuError> {
-    let passes = [cpu.scene(), gpu.scene()].map(|scene| scene.passes(cpu.size()).pop());
-    let [Some(cpu_pass), Some(gpu_pass)] = passes else {
-        return Ok(PixelComparison {
-            pixel,
-            events: Vec::new(),
-            fragments: Vec::new(),
-        });
-    };
-    let events = cpu.history(pixel)?;
-    let blends = |event: &PixelEvent| {
-        let draw = cpu_pass.draws.get(event.draw);
-        draw.is_some_and(|draw| draw.state.blend.enable)
-    };
-    let opaque = |event: &PixelEvent| event.fate == Fate::Written && !blends(event);
-    let first = events.iter().rposition(opaque).unwrap_or(0);
-    let seen: Vec<&PixelEvent> = (events.iter().skip(first))
-        .filter(|event| event.fate != Fate::Rejected)
+    let gpu_scene = gpu.scene();
+    let gpu_pass = gpu_scene.passes(cpu.size()).pop();
+    let history = cpu.history(Output::Picture, pixel)?;
+    let cpu_draw = |event: &PixelEvent| cpu.pass(Output::Picture)?.draws.get(event.draw);
+    let blends = |event: &PixelEvent| cpu_draw(event).is_some_and(|draw| draw.state.blend.enable);
+    let opaque = |event: &PixelEvent| event.merge.fate() == Fate::Written && !blends(event);
+    let first = history.events.iter().rposition(opaque).unwrap_or(0);
+    let seen: Vec<&PixelEvent> = (history.events.iter().skip(first))
+        .filter(|event| matches!(event.merge.fate(), Fate::Written | Fate::Killed))
         .collect();
     let mut fragments = Vec::new();
     for event in &seen[seen.len().saturating_sub(MOST_FRAGMENTS)..] {
-        let [Some(on_cpu), Some(on_gpu)] =
-            [&cpu_pass, &gpu_pass].map(|pass| pass.draws.get(event.draw))
-        else {
+        let (Some(on_cpu), Some(on_gpu)) = (
+            cpu.shaded(Output::Picture, event.draw),
+            gpu_pass
+                .as_ref()
+                .and_then(|pass| pass.draws.get(event.draw)),
+        ) else {
             continue;
         };
-        if let Some(trace) = cpu.trace(on_cpu, event.primitive, pixel)? {
-            let wanted = wanted(&on_cpu.pixel.kernel, &trace);
-            let registers = gpu.registers(on_gpu, event.primitive, pixel, &wanted)?;
-            let texture = |stage| sampled(on_cpu, stage, cpu.scene());
-            fragments.push(paired(event, on_cpu, &trace, registers.as_ref(), &texture));
-        }
+        let fragment = &event.fragment;
+        let trace = (on_cpu.program(None)).trace(&fragment.batch, fragment.lane);
+        let on_cpu = on_cpu.draw();
+        let wanted = wanted(&on_cpu.pixel.kernel, &trace);
+        let registers = gpu.registers(on_gpu, fragment.primitive, pixel, &wanted)?;
+        let texture = |stage| sampled(on_cpu, stage, cpu.scene());
+        fragments.push(paired(event, on_cpu, &trace, registers.as_ref(), &texture));
     }
     Ok(PixelComparison {
         pixel,
-        events,
+        history,
         fragments,
     })
 }
@@ -274,11 +270,11 @@ fn paired(
     let kernel = &draw.pixel.kernel;
     let Some(registers) = registers else {
         return FragmentComparison {
-            event: *event,
+            event: event.clone(),
             covered: false,
             inputs: Vec::new(),
             lines: Vec::new(),
-            killed: [event.fate == Fate::Killed, false],
+            killed: [event.merge.killed, false],
         };
     };
     let mut values = registers.values.iter().copied();
@@ -345,11 +341,11 @@ fn paired(
     }
     settle_kills(&mut lines, registers.killed);
     FragmentComparison {
-        event: *event,
+        event: event.clone(),
         covered: true,
         inputs,
         lines,
-        killed: [event.fate == Fate::Killed, registers.killed],
+        killed: [event.merge.killed, registers.killed],
     }
 }
 

@@ -16,6 +16,9 @@ pub(super) const GUARD: f64 = 32768.0;
 /// screen comes so near the eye.
 const SMALLEST_W: f64 = 1e-30;
 
+/// The shares of a primitive's own vertices, in order.
+pub(super) const SHARES: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+
 /// A corner of what is left after clipping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ClipVertex {
@@ -86,11 +89,10 @@ impl Clipper {
         if corners.iter().any(|corner| !corner.is_finite()) {
             return;
         }
-        let shares = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
         kept.extend(
             corners
                 .iter()
-                .zip(shares)
+                .zip(SHARES)
                 .map(|(corner, shares)| ClipVertex {
                     position: corner.to_array().map(f64::from),
                     shares,

@@ -9,7 +9,7 @@ use std::ops::Range;
 use glam::Vec4;
 
 use super::pixel::{LANES, PixelBatch, PixelInputs, QUADS};
-use super::setup::{Plane, Setup};
+use super::setup::{Plane, Planes, Setup};
 use super::state::ShadeMode;
 use super::{Vertex, fog_unit, unit};
 
@@ -37,6 +37,20 @@ pub(super) struct Interpolator<'a> {
     pub(super) fog: bool,
 }
 
+/// The shares of the second and of the third vertex at the four pixels of a quad, and `w / w_scale` there.
+#[inline]
+pub(super) fn quad_shares(planes: &Planes, x: i32, y: i32) -> ([[f32; 4]; 2], [f32; 4]) {
+    let w = quad_values(&planes.inverse_w, x, y).map(|inverse_w| {
+        let floor = planes.inverse_w_floor;
+        1.0 / if inverse_w > floor { inverse_w } else { floor }
+    });
+    let shares = planes.shares.each_ref().map(|plane| {
+        let over_w = quad_values(plane, x, y);
+        std::array::from_fn(|i| over_w[i] * w[i])
+    });
+    (shares, w)
+}
+
 /// The shares of the second and of the third vertex at the pixels of each quad.
 type Shares = [[[f32; 4]; QUADS]; 2];
 
@@ -47,14 +61,9 @@ impl Interpolator<'_> {
         let quads = batch.quads.min(QUADS);
         for quad in 0..quads {
             let planes = &setup(quad).planes;
-            let (x, y) = (batch.x[4 * quad], batch.y[4 * quad]);
-            let w = quad_values(&planes.inverse_w, x, y).map(|inverse_w| {
-                let floor = planes.inverse_w_floor;
-                1.0 / if inverse_w > floor { inverse_w } else { floor }
-            });
-            for (share, plane) in shares.iter_mut().zip(&planes.shares) {
-                let over_w = quad_values(plane, x, y);
-                share[quad] = std::array::from_fn(|i| over_w[i] * w[i]);
+            let (of_quad, w) = quad_shares(planes, batch.x[4 * quad], batch.y[4 * quad]);
+            for (share, of_quad) in shares.iter_mut().zip(of_quad) {
+                share[quad] = of_quad;
             }
             batch.w.as_chunks_mut().0[quad] = w.map(|w| w * planes.w_scale);
         }

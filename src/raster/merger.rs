@@ -1,14 +1,25 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
-use super::pixel::{LANES, PixelBatch, PixelResult};
-use super::state::{
-    BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, RenderState, StencilOp,
+use super::pixel::{PixelBatch, PixelResult};
+use super::record::{
+    AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, FogSource, Fogged, StencilTested,
+    Watcher,
 };
-use super::target::{ColorFormat, TILE, Target, TargetTooLarge, Tile};
+use super::state::{
+    BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, FogState, RenderState,
+    StencilOp, StencilState,
+};
+use super::target::{ColorFormat, TILE, Tile};
 use super::{fog_unit, unit};
 
 /// Red, green, blue and alpha of the four pixels of a quad.
-type QuadColor = [[f32; 4]; 4];
+pub(super) type QuadColor = [[f32; 4]; 4];
+
+/// One of the four.
+#[inline]
+fn pixel_of(color: &QuadColor, pixel: usize) -> [f32; 4] {
+    std::array::from_fn(|channel| color[channel][pixel])
+}
 
 /// When pixels meet the depth and stencil tests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,10 +76,10 @@ fn tile_pixels(x: i32, y: i32) -> [usize; 4] {
 pub(super) fn depth_stencil(
     tile: &mut Tile,
     state: &RenderState,
-    x: i32,
-    y: i32,
+    (x, y): (i32, i32),
     z: &[f32; 4],
     mask: u8,
+    watcher: &mut impl Watcher,
 ) -> u8 {
     if !state.depth.enable && !state.stencil.enable {
         return mask;
@@ -78,18 +89,35 @@ pub(super) fn depth_stencil(
         if mask >> i & 1 == 0 {
             continue;
         }
-        let depth = &mut tile.depth[at];
-        let depth_passes = || !state.depth.enable || state.depth.func.passes(z[i], *depth);
-        let passes = if state.stencil.enable {
-            stencil(&mut tile.stencil[at], state, depth_passes)
-        } else {
-            depth_passes()
-        };
-        if passes {
+        let incoming = z[i];
+        let stored = tile.depth[at];
+        let depth_passes = !state.depth.enable || state.depth.func.passes(incoming, stored);
+        let stencil_passes = !state.stencil.enable
+            || stencil(
+                &mut tile.stencil[at],
+                &state.stencil,
+                depth_passes,
+                1 << i,
+                watcher,
+            );
+        if stencil_passes && depth_passes {
             passed |= 1 << i;
             if state.depth.enable && state.depth.write {
-                *depth = z[i];
+                tile.depth[at] = incoming;
             }
+        }
+        if state.depth.enable && stencil_passes {
+            let after = tile.depth[at];
+            watcher.note(1 << i, |record, _| {
+                record.depth = Some(DepthTested {
+                    incoming,
+                    stored,
+                    func: state.depth.func,
+                    passed: depth_passes,
+                    write: state.depth.write,
+                    after,
+                });
+            });
         }
     }
     passed
@@ -113,34 +141,52 @@ pub(super) fn depth_only(
     (0..4).fold(0, |passed, i| passed | passes(i, at[i])) & mask
 }
 
-fn stencil(stored: &mut u8, state: &RenderState, depth_passes: impl Fn() -> bool) -> bool {
-    let stencil = &state.stencil;
-    let mask = stencil.mask;
-    let (passes, op) = if !stencil
-        .func
-        .passes(stencil.reference & mask, *stored & mask)
-    {
-        (false, stencil.fail)
-    } else if !depth_passes() {
-        (false, stencil.depth_fail)
-    } else {
-        (true, stencil.pass)
+/// The stencil test of the pixel in `mask`, with what it does to the stored value. Returns whether it is passed.
+#[inline]
+fn stencil(
+    stored: &mut u8,
+    state: &StencilState,
+    depth_passes: bool,
+    mask: u8,
+    watcher: &mut impl Watcher,
+) -> bool {
+    let before = *stored;
+    let passed = (state.func).passes(state.reference & state.mask, before & state.mask);
+    let op = match (passed, depth_passes) {
+        (false, _) => state.fail,
+        (true, false) => state.depth_fail,
+        (true, true) => state.pass,
     };
     let new = match op {
-        StencilOp::Keep => *stored,
+        StencilOp::Keep => before,
         StencilOp::Zero => 0,
-        StencilOp::Replace => stencil.reference,
-        StencilOp::IncrSat => stored.saturating_add(1),
-        StencilOp::DecrSat => stored.saturating_sub(1),
-        StencilOp::Invert => !*stored,
-        StencilOp::Incr => stored.wrapping_add(1),
-        StencilOp::Decr => stored.wrapping_sub(1),
+        StencilOp::Replace => state.reference,
+        StencilOp::IncrSat => before.saturating_add(1),
+        StencilOp::DecrSat => before.saturating_sub(1),
+        StencilOp::Invert => !before,
+        StencilOp::Incr => before.wrapping_add(1),
+        StencilOp::Decr => before.wrapping_sub(1),
     };
-    *stored = *stored & !stencil.write_mask | new & stencil.write_mask;
-    passes
+    let after = before & !state.write_mask | new & state.write_mask;
+    *stored = after;
+    watcher.note(mask, |record, _| {
+        record.stencil = Some(StencilTested {
+            stored: before,
+            reference: state.reference,
+            mask: state.mask,
+            func: state.func,
+            passed,
+            op,
+            write_mask: state.write_mask,
+            after,
+        });
+    });
+    passed
 }
 
 /// Puts a shaded batch into its tile, quad after quad in drawing order. Returns how many pixels were written.
+///
+/// Whoever watches one pixel must be given batches of one quad.
 pub(super) fn merge(
     tile: &mut Tile,
     format: ColorFormat,
@@ -148,41 +194,73 @@ pub(super) fn merge(
     timing: DepthTiming,
     batch: &PixelBatch,
     shaded: &PixelResult,
+    watcher: &mut impl Watcher,
 ) -> u64 {
     let mut written = 0;
     for quad in 0..batch.quads {
         let lane = 4 * quad;
+        let replaced = matches!(timing, DepthTiming::Late { replaced: true, .. });
+        // r0 leaves the shader as a colour of 0 to 1; fog and blending come after that.
+        let clamped = |channel: usize, i: usize| unit(shaded.color[channel][lane + i]);
+        watcher.note(0xf, |record, i| {
+            record.shaded = shaded.color.map(|channel| channel[lane + i]);
+            record.clamped = std::array::from_fn(|channel| clamped(channel, i));
+            record.replaced_depth = replaced.then(|| shaded.depth[lane + i]);
+            record.killed = shaded.killed[lane + i];
+        });
         let mut mask = (0..4).fold(0, |mask, i| {
             mask | u8::from(batch.live[lane + i] && !shaded.killed[lane + i]) << i
         });
         if mask == 0 {
             continue;
         }
-        // r0 leaves the shader as a colour of 0 to 1; fog and blending come after that.
         let mut color: QuadColor =
-            std::array::from_fn(|c| std::array::from_fn(|i| unit(shaded.color[c][lane + i])));
+            std::array::from_fn(|channel| std::array::from_fn(|i| clamped(channel, i)));
         if state.alpha_test.enable {
             let test = &state.alpha_test;
             let passes = |i: usize| test.func.passes(to_byte(color[3][i]), test.reference);
-            mask &= (0..4).fold(0, |kept, i| kept | u8::from(passes(i)) << i);
+            let passed: u8 = (0..4).fold(0, |kept, i| kept | u8::from(passes(i)) << i);
+            watcher.note(mask, |record, i| {
+                record.alpha_test = Some(AlphaTested {
+                    alpha: to_byte(color[3][i]),
+                    func: test.func,
+                    reference: test.reference,
+                    passed: passed >> i & 1 == 1,
+                });
+            });
+            mask &= passed;
         }
-        let (x, y) = (batch.x[lane], batch.y[lane]);
+        let at = (batch.x[lane], batch.y[lane]);
         if let DepthTiming::Late { replaced, .. } = timing {
             let z = if replaced { &shaded.depth } else { &batch.z };
             let z: [f32; 4] = std::array::from_fn(|i| unit(z[lane + i]));
-            mask = depth_stencil(tile, state, x, y, &z, mask);
+            mask = depth_stencil(tile, state, at, &z, mask, watcher);
         }
         if mask == 0 {
             continue;
         }
-        fog(&mut color, state, batch, lane);
-        let pixels = tile_pixels(x, y);
+        fog(&mut color, &state.fog, batch, lane, mask, watcher);
+        let pixels = tile_pixels(at.0, at.1);
         if state.blend.enable {
             let stored = pixels.map(|at| tile.color[at]);
             let target: QuadColor =
                 std::array::from_fn(|c| std::array::from_fn(|i| f32::from(stored[i][c]) / 255.0));
-            color = blend(&state.blend, &color, &target);
+            let source = color;
+            color = blend(&state.blend, &source, &target);
+            watcher.note(mask, |record, i| {
+                record.blend = Some(Blended {
+                    source: pixel_of(&source, i),
+                    target: pixel_of(&target, i),
+                    weights: weights(&state.blend, &source, &target, i),
+                    op: state.blend.op,
+                    result: pixel_of(&color, i),
+                });
+            });
         }
+        // Without an alpha channel there is a constant 1, which nothing changes.
+        let writes = |channel: usize| {
+            state.color_mask.writes(channel) && !(channel == 3 && format == ColorFormat::X8R8G8B8)
+        };
         for (i, at) in pixels.into_iter().enumerate() {
             if mask >> i & 1 == 0 {
                 continue;
@@ -190,151 +268,113 @@ pub(super) fn merge(
             written += 1;
             let pixel = &mut tile.color[at];
             for (channel, stored) in pixel.iter_mut().enumerate() {
-                // Without an alpha channel there is a constant 1, which nothing changes.
-                if state.color_mask.writes(channel)
-                    && !(channel == 3 && format == ColorFormat::X8R8G8B8)
-                {
+                if writes(channel) {
                     *stored = to_byte(color[channel][i]);
                 }
             }
         }
+        watcher.note(mask, |record, i| {
+            let color = pixel_of(&color, i);
+            record.write = Some(ColorWritten {
+                color,
+                bytes: color.map(to_byte),
+                mask: state.color_mask,
+                written: std::array::from_fn(writes),
+            });
+        });
     }
     written
 }
 
-/// Mixes fog into the colours of the quad whose first lane this is.
+/// Mixes fog into the colours of the quad whose first lane this is. `mask`: the pixels that count.
 #[inline]
-fn fog(color: &mut QuadColor, state: &RenderState, batch: &PixelBatch, lane: usize) {
-    if !state.fog.enable {
+pub(super) fn fog(
+    color: &mut QuadColor,
+    state: &FogState,
+    batch: &PixelBatch,
+    lane: usize,
+    mask: u8,
+    watcher: &mut impl Watcher,
+) {
+    if !state.enable {
         return;
     }
-    let clear: [f32; 4] = std::array::from_fn(|i| fog_factor(state, batch, lane + i));
-    for (channel, fog) in color.iter_mut().zip(state.fog.color) {
+    let factors: [f32; 4] = std::array::from_fn(|i| fog_factor(state, batch, lane + i));
+    let clear = factors.map(fog_unit);
+    let full = state.color.map(unit);
+    let before = *color;
+    for (channel, fog) in color.iter_mut().zip(full) {
         for (value, clear) in channel.iter_mut().zip(clear) {
-            *value = clear * *value + (1.0 - clear) * unit(fog);
+            *value = clear * *value + (1.0 - clear) * fog;
         }
     }
-}
-
-/// A shaded pixel on its own, before the merger.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LonePixel {
-    /// `r0`.
-    pub color: [f32; 4],
-    /// Whether `texkill` took it out.
-    pub killed: bool,
-    /// The depth of the primitive, 0 to 1. Table fog uses it, whatever the shader replaces it with.
-    pub z: f32,
-    /// The depth that the shader replaces it with.
-    pub replaced_z: Option<f32>,
-    /// The w of the position.
-    pub w: f32,
-    /// The fog factor of the vertices, 0 to 1.
-    pub fog: f32,
-}
-
-/// What stands in the target after a [`LonePixel`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Merged {
-    /// The colour in 0 to 1 before it is rounded to the steps of a target.
-    pub exact: [f32; 4],
-    /// The colour as a target of 8 bits a channel stores it.
-    pub stored: [u8; 4],
-    /// Whether the pixel reached the target: it was not killed, and no test rejected it.
-    pub written: bool,
-}
-
-/// Takes one pixel through fog, alpha test, depth and stencil test, blending and the colour write mask, into a target
-/// with alpha whose colour is `clear` (taken into 0 to 1), whose depth is 1 and whose stencil value is 0.
-///
-/// # Errors
-/// [`TargetTooLarge`], if the one pixel of the target should be too much.
-pub fn merge_lone(
-    state: &RenderState,
-    pixel: &LonePixel,
-    clear: [f32; 4],
-) -> Result<Merged, TargetTooLarge> {
-    let clear = clear.map(unit);
-    let mut target = Target::new(1, 1, ColorFormat::A8R8G8B8)?;
-    target.clear(Some(clear.map(to_byte)), Some(1.0), Some(0));
-    let mut batch = PixelBatch::empty();
-    batch.place(0, 0, 0, 1, &[pixel.z; 4]);
-    batch.quads = 1;
-    batch.w = [pixel.w; LANES];
-    batch.fog = [pixel.fog; LANES];
-    let mut shaded = PixelResult::new();
-    shaded.color = pixel.color.map(|channel| [channel; LANES]);
-    shaded.killed = [pixel.killed; LANES];
-    shaded.depth = [pixel.replaced_z.unwrap_or(pixel.z); LANES];
-    let timing = DepthTiming::Late {
-        reject: false,
-        replaced: true,
-    };
-    let mut written = 0;
-    if let Some(tile) = target.tiles_mut().first_mut() {
-        written = merge(tile, ColorFormat::A8R8G8B8, state, timing, &batch, &shaded);
-    }
-    let mut exact = clear;
-    if written > 0 {
-        let mut color = pixel.color.map(|channel| [unit(channel); 4]);
-        fog(&mut color, state, &batch, 0);
-        if state.blend.enable {
-            color = blend(&state.blend, &color, &clear.map(|channel| [channel; 4]));
-        }
-        for (channel, value) in exact.iter_mut().enumerate() {
-            if state.color_mask.writes(channel) {
-                *value = color[channel][0];
-            }
-        }
-    }
-    let stored = target.color(0, 0).unwrap_or_default();
-    Ok(Merged {
-        exact,
-        stored,
-        written: written > 0,
-    })
+    watcher.note(mask, |record, i| {
+        let rgb = |color: &QuadColor| std::array::from_fn(|channel| color[channel][i]);
+        record.fog = Some(Fogged {
+            source: match state.table {
+                FogMode::None => FogSource::Vertex,
+                mode => FogSource::Table {
+                    mode,
+                    kind: state.distance,
+                    distance: fog_distance(state, batch, lane + i),
+                },
+            },
+            factor: factors[i],
+            clear: clear[i],
+            color: full,
+            before: rgb(&before),
+            after: rgb(color),
+        });
+    });
 }
 
 /// 0 to 1 as 0 to 255, to the nearest (of two equally near ones the even).
 #[inline]
-fn to_byte(value: f32) -> u8 {
+pub(super) fn to_byte(value: f32) -> u8 {
     // A float of 2^23 or more holds no fractions, so the addition rounds, and leaves the integer in the lowest bits.
     (value * 255.0 + 8_388_608.0).to_bits() as u8
 }
 
-/// How much of the pixel's own colour is left, 0 to 1.
+/// The distance that table fog uses.
 #[inline]
-fn fog_factor(state: &RenderState, batch: &PixelBatch, lane: usize) -> f32 {
-    let fog = &state.fog;
-    let distance = match fog.distance {
+fn fog_distance(fog: &FogState, batch: &PixelBatch, lane: usize) -> f32 {
+    match fog.distance {
         FogDistance::Z => batch.z[lane],
         FogDistance::W => batch.w[lane],
-    };
-    let factor = match fog.table {
+    }
+}
+
+/// How much of the pixel's own colour is left, not yet taken into 0 to 1.
+#[inline]
+fn fog_factor(fog: &FogState, batch: &PixelBatch, lane: usize) -> f32 {
+    let distance = fog_distance(fog, batch, lane);
+    match fog.table {
         FogMode::None => batch.fog[lane],
         FogMode::Exp => (-distance * fog.density).exp(),
         FogMode::Exp2 => (-(distance * fog.density).powi(2)).exp(),
         // Both ends in one place divide by zero: a step then.
         FogMode::Linear if fog.start == fog.end => f32::from(u8::from(distance < fog.end)),
         FogMode::Linear => (fog.end - distance) / (fog.end - fog.start),
-    };
-    fog_unit(factor)
+    }
+}
+
+/// The factors of source and target that count.
+#[inline]
+fn factors(state: &BlendState) -> [BlendFactor; 2] {
+    match state.source {
+        // These two say it for both sides.
+        BlendFactor::BothSrcAlpha => [BlendFactor::SrcAlpha, BlendFactor::InvSrcAlpha],
+        BlendFactor::BothInvSrcAlpha => [BlendFactor::InvSrcAlpha, BlendFactor::SrcAlpha],
+        factor => [factor, state.destination],
+    }
 }
 
 /// Source and target, joined; in 0 to 1.
-fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) -> QuadColor {
-    let (source_factor, target_factor) = match state.source {
-        // These two say it for both sides.
-        BlendFactor::BothSrcAlpha => (BlendFactor::SrcAlpha, BlendFactor::InvSrcAlpha),
-        BlendFactor::BothInvSrcAlpha => (BlendFactor::InvSrcAlpha, BlendFactor::SrcAlpha),
-        factor => (factor, state.destination),
-    };
+pub(super) fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) -> QuadColor {
+    let factors = factors(state);
     std::array::from_fn(|channel| {
         let join = |op: fn(f32, f32) -> f32| {
-            let (of_source, of_target) = (
-                factor(source_factor, channel, source, target),
-                factor(target_factor, channel, source, target),
-            );
+            let [of_source, of_target] = factors.map(|side| factor(side, channel, source, target));
             std::array::from_fn(|i| {
                 unit(op(
                     source[channel][i] * of_source[i],
@@ -349,6 +389,22 @@ fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) -> QuadColo
             BlendOp::Min => std::array::from_fn(|i| source[channel][i].min(target[channel][i])),
             BlendOp::Max => std::array::from_fn(|i| source[channel][i].max(target[channel][i])),
         }
+    })
+}
+
+/// What [`blend`] multiplies both sides of a pixel by, if it does.
+fn weights(
+    state: &BlendState,
+    source: &QuadColor,
+    target: &QuadColor,
+    pixel: usize,
+) -> Option<[BlendWeight; 2]> {
+    let multiplies = !matches!(state.op, BlendOp::Min | BlendOp::Max);
+    multiplies.then(|| {
+        factors(state).map(|side| BlendWeight {
+            factor: side,
+            value: std::array::from_fn(|channel| factor(side, channel, source, target)[pixel]),
+        })
     })
 }
 

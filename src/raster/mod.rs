@@ -3,12 +3,12 @@
 //!
 //! [`draw`] takes vertices as the vertex shader left them and a [`PixelShader`], of which it only knows what it reads and
 //! what it may do. How either is executed is none of its business. [`cover`] answers for one pixel which primitives reach
-//! it and with which inputs, by the same set-up and interpolation; [`LoneTarget`] draws them again. [`PixelProgram`] and [`shade_vertices`] put kernels in the
-//! places of both.
+//! it and with which inputs, by the same set-up and interpolation; [`LoneTarget`] draws them again, and its [`MergeRecord`]s
+//! tell stage by stage what the merger did. [`PixelProgram`] and [`shade_vertices`] put kernels in the places of both.
 //!
 //! Files, in the order of the data: `assemble` (vertices to primitives), `clip`, `setup` and `points_lines` (primitives to
 //! what has edges and planes on the screen), `scan` (which pixels), `interpolate` (pixel inputs), `tiles` (the loop over
-//! all of it), `merger` (into the target), `cover`, `replay`.
+//! all of it), `merger` (into the target) and its `record`, `cover`, `replay`.
 
 mod assemble;
 mod clip;
@@ -19,6 +19,7 @@ mod names;
 mod pixel;
 mod points_lines;
 mod programmable;
+mod record;
 mod replay;
 mod scan;
 mod setup;
@@ -34,14 +35,17 @@ use glam::Vec4;
 use crate::semantics::saturate as unit;
 
 pub use assemble::{DrawError, Topology};
-pub use cover::{Fragment, cover};
-pub use merger::{LonePixel, Merged, merge_lone};
+pub use cover::{Fragment, Interpolation, ScreenPosition, cover};
 pub use names::UnknownName;
 pub use pixel::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader};
 pub use programmable::{
     PixelProgram, PixelTrace, RegisterPicture, View, shade_vertices, vertex_outputs,
 };
-pub use replay::{Fate, LoneTarget};
+pub use record::{
+    AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, Fate, FogSource, Fogged,
+    MergeRecord, StencilTested, Stored,
+};
+pub use replay::{LonePixel, LoneTarget, Merged, merge_lone};
 pub use state::{
     AlphaTest, BlendFactor, BlendOp, BlendState, ColorMask, Compare, CullMode, DepthState,
     FillMode, FogDistance, FogMode, FogState, PointState, RenderState, ShadeMode, StencilOp,

@@ -13,7 +13,7 @@ pub type Attribute = [[f32; LANES]; 4];
 /// The inputs of up to [`LANES`] pixels.
 ///
 /// Lanes from `4 * quads` on hold nothing of meaning, and so do attributes that [`PixelShader::inputs`] leaves out.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PixelBatch {
     /// How many quads there are, 1 to `LANES / 4`.
     pub quads: usize,

@@ -169,21 +169,23 @@ impl PixelProgram<'_> {
             .filter(|slot| Some(*slot) == shown || !self.kernel.read(*slot).is_empty())
     }
 
-    /// Puts the inputs into their registers.
-    fn load(&self, machine: &mut Machine<LANES>, batch: &PixelBatch) {
+    /// Puts the inputs that the shader reads, of the first `N` lanes of a batch, into their registers: of a
+    /// [`Machine<4>`](Machine) the first quad.
+    pub fn load<const N: usize>(&self, machine: &mut Machine<N>, batch: &PixelBatch) {
         for (i, slot) in self.texcoords() {
-            *machine.register_mut(slot) = batch.texcoords[i];
+            *machine.register_mut(slot) = lanes(&batch.texcoords[i], |value| value);
         }
         for (i, color) in [&batch.diffuse, &batch.specular].into_iter().enumerate() {
             if let Some(slot) = self.color(i) {
-                *machine.register_mut(slot) = clamped(color);
+                // Interpolated colours reach the shader in 0 to 1.
+                *machine.register_mut(slot) = lanes(color, semantics::saturate);
             }
         }
     }
 
     /// Runs the shader for a batch and records one lane.
     pub fn trace(&self, batch: &PixelBatch, lane: usize) -> PixelTrace {
-        let mut machine = Machine::new();
+        let mut machine = Machine::<LANES>::new();
         self.load(&mut machine, batch);
         let sets = self.texcoords().map(|(_, slot)| slot);
         let colors = (0..2).filter_map(|i| self.color(i));
@@ -247,7 +249,9 @@ impl PixelShader for PixelProgram<'_> {
     }
 }
 
-/// Interpolated colours reach the shader in 0…1.
-fn clamped(color: &Attribute) -> Attribute {
-    color.map(|component| component.map(semantics::saturate))
+/// The first lanes of an attribute; lanes that it does not have are 0.
+#[inline]
+fn lanes<const N: usize>(attribute: &Attribute, finish: impl Fn(f32) -> f32) -> Lanes<N> {
+    let of = |component: &[f32; LANES], lane| component.get(lane).copied().map_or(0.0, &finish);
+    (attribute.each_ref()).map(|component| std::array::from_fn(|lane| of(component, lane)))
 }

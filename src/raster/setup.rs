@@ -3,7 +3,8 @@
 //! Screen positions are rounded to 1/256 pixel before anything is derived from them. Edge functions are exact integers, so
 //! each pixel belongs to exactly one of the triangles around a shared edge.
 
-use super::clip::{ClipVertex, Clipper, GUARD};
+use super::clip::{ClipVertex, Clipper, GUARD, SHARES};
+use super::cover::ScreenPosition;
 use super::points_lines;
 use super::scan::{Bounds, Edge, Shape};
 use super::state::{CullMode, FillMode, Viewport};
@@ -116,8 +117,25 @@ pub(super) struct Setup {
 /// Memory for the corners of one primitive, used again for the next.
 #[derive(Default)]
 pub(super) struct Room {
+    /// How many vertices the primitive has: 1, 2 or 3.
+    vertices: usize,
     kept: Vec<ClipVertex>,
     corners: Vec<Corner>,
+}
+
+impl Room {
+    /// Where vertex 0, 1 or 2 of the primitive is on the screen; none if clipping left nothing of it. A line repeats its
+    /// last vertex, a point its only one.
+    pub(super) fn screen(&self, vertex: usize) -> Option<ScreenPosition> {
+        let place = vertex.min(self.vertices.checked_sub(1)?);
+        let kept = self.kept.iter().zip(&self.corners);
+        let own =
+            |(kept, _): &(&ClipVertex, &Corner)| kept.original && kept.shares == SHARES[place];
+        let (_, corner) = { kept }.find(own)?;
+        let [x, y] = corner.pixels().map(|v| v as f32);
+        let [z, w] = [corner.z, corner.w].map(|v| v as f32);
+        Some(ScreenPosition { x, y, z, w })
+    }
 }
 
 /// The part of a draw call that turns primitives into shapes.
@@ -158,15 +176,28 @@ impl<'a> Stage<'a> {
         })
     }
 
+    /// The same, cut down to a part of the target. Shapes keep their planes and edges, only what may be covered is less.
+    pub(super) fn within(self, part: &Bounds) -> Self {
+        let nothing = Bounds {
+            x0: 0,
+            y0: 0,
+            x1: 0,
+            y1: 0,
+        };
+        let scissor = self.scissor.intersect(part).unwrap_or(nothing);
+        Self { scissor, ..self }
+    }
+
     /// Adds the shapes of a primitive, in drawing order.
     pub(super) fn primitive(&self, vertices: [u32; 3], room: &mut Room, shapes: &mut Vec<Setup>) {
-        let Room { kept, corners } = room;
         let positions = vertices.map(|index| self.vertex(index).position);
         let vertices_of_primitive = match self.call.topology {
             Topology::PointList => 1,
             Topology::LineList | Topology::LineStrip => 2,
             Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => 3,
         };
+        room.vertices = vertices_of_primitive;
+        let Room { kept, corners, .. } = room;
         self.clipper.clip(&positions[..vertices_of_primitive], kept);
         corners.clear();
         corners.extend(kept.iter().map(|corner| self.to_screen(corner)));

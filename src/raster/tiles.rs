@@ -9,6 +9,7 @@ use super::assemble::Primitives;
 use super::interpolate::{Interpolator, depths};
 use super::merger::{DepthTiming, depth_only, depth_stencil, merge};
 use super::pixel::{PixelBatch, PixelResult, PixelShader, QUADS};
+use super::record::Nobody;
 use super::scan::Bounds;
 use super::setup::{Room, Setup, Stage};
 use super::state::FogMode;
@@ -254,7 +255,7 @@ impl Brush<'_> {
         let state = self.painter.stage.call.state;
         let z = depths(&self.shapes[number as usize], x, y);
         let mask = match self.painter.timing {
-            DepthTiming::Early => depth_stencil(self.tile, state, x, y, &z, mask),
+            DepthTiming::Early => depth_stencil(self.tile, state, (x, y), &z, mask, &mut Nobody),
             DepthTiming::Late { reject: true, .. } => depth_only(self.tile, state, x, y, &z, mask),
             DepthTiming::Late { .. } => mask,
         };
@@ -293,6 +294,7 @@ impl Brush<'_> {
             painter.timing,
             &self.batch,
             &self.shaded,
+            &mut Nobody,
         );
         self.batch.quads = 0;
     }

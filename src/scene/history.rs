@@ -1,84 +1,98 @@
-//! For a debugger: what happened at one pixel of a picture, and what its registers held.
+//! For a debugger: what happened at one pixel of a pass.
 
-use super::prepare::PreparedDraw;
+use std::collections::VecDeque;
+
+use super::prepare::{Output, PreparedDraw};
 use super::render::{RenderError, Rendering};
 use super::rendered::clear_color;
-use crate::raster::{Fate, LoneTarget, PixelProgram, PixelTrace, cover};
+use crate::raster::{ColorFormat, DrawError, Fragment, LoneTarget, MergeRecord, Stored, cover};
 
-/// One primitive of one draw at a pixel of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// At most so many primitives are told of one pixel, the last ones.
+pub const MAX_EVENTS: usize = 4096;
+
+/// Everything that covers a pixel of a pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelHistory {
+    /// The pass.
+    pub output: Output,
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// What the pixel held before the first draw.
+    pub clear: Stored,
+    /// How many primitives came before [`Self::events`], which holds at most [`MAX_EVENTS`].
+    pub left_out: usize,
+    /// The primitives that cover the pixel, in the order of drawing, whatever became of them.
+    pub events: Vec<PixelEvent>,
+}
+
+impl PixelHistory {
+    /// What the pixel holds in the end.
+    pub fn after(&self) -> Stored {
+        (self.events.last()).map_or(self.clear, |event| event.merge.after)
+    }
+}
+
+/// One primitive of one draw at a pixel.
+#[derive(Clone, Debug, PartialEq)]
 pub struct PixelEvent {
-    /// The draw, by its place in the last of [`Scene::passes`](super::Scene::passes).
+    /// The draw, by its place in [`Pass::draws`](super::Pass::draws).
     pub draw: usize,
-    /// Which primitive of it.
-    pub primitive: usize,
-    /// What became of it.
-    pub fate: Fate,
-    /// The pixel afterwards: red, green, blue, alpha.
-    pub after: [u8; 4],
+    /// The primitive, its vertices, and the inputs of the quad.
+    pub fragment: Fragment,
+    /// What the merger did, stage by stage, with the pixel before and after.
+    pub merge: MergeRecord,
 }
 
 impl Rendering<'_> {
-    /// Every primitive that covers a pixel of the picture, in the order of drawing. The last one's colour is that of the
-    /// picture. Pixels outside of it are covered by nothing.
+    /// Every primitive that covers a pixel of the picture, or of a face of a render target, in the order of drawing. What
+    /// the last one leaves is what was drawn there; a register that was shown in place of a colour
+    /// ([`Show`](super::Show)) is left out of account. Nothing covers pixels outside, and those of what was not drawn.
     ///
     /// # Errors
     /// As [`Scene::render`](super::Scene::render).
-    pub fn history(&self, [x, y]: [u32; 2]) -> Result<Vec<PixelEvent>, RenderError> {
-        let Some(pass) = self.scene().passes(self.size()).pop() else {
-            return Ok(Vec::new());
+    pub fn history(&self, output: Output, [x, y]: [u32; 2]) -> Result<PixelHistory, RenderError> {
+        let pass = self.pass(output);
+        let clear = Stored {
+            color: pass.map_or([0; 4], |pass| clear_color(pass.clear)),
+            depth: 1.0,
+            stencil: 0,
         };
         let mut pixel =
-            LoneTarget::new((x, y), clear_color(pass.clear)).map_err(RenderError::Size)?;
-        let mut events = Vec::new();
-        for (number, draw) in pass.draws.iter().enumerate() {
-            let shaded = self.rendered().shade(draw);
-            let shader = PixelProgram {
-                kernel: &draw.pixel.kernel,
-                environment: &shaded.environment,
-                picture: None,
+            LoneTarget::new((x, y), ColorFormat::A8R8G8B8, clear).map_err(RenderError::Size)?;
+        let (mut events, mut left_out) = (VecDeque::new(), 0);
+        for (number, draw) in pass.iter().flat_map(|pass| &pass.draws).enumerate() {
+            let Some(shaded) = self.shaded(output, number) else {
+                continue;
             };
-            let call = shaded.call(draw, &draw.state, self.size());
-            let fragments = cover(&call, self.size().into(), (x, y));
-            for fragment in fragments.map_err(|error| refused(draw, error))? {
-                let fate = pixel.draw(&draw.state, &fragment, &shader);
-                events.push(PixelEvent {
+            let size = pass.map_or([0; 2], |pass| pass.size);
+            let call = shaded.call(&draw.state, size);
+            let fragments =
+                cover(&call, size.into(), (x, y)).map_err(|error| refused(draw, error))?;
+            let shader = shaded.program(None);
+            for fragment in fragments {
+                let merge = pixel.draw(&draw.state, &fragment, &shader);
+                if events.len() == MAX_EVENTS {
+                    events.pop_front();
+                    left_out += 1;
+                }
+                events.push_back(PixelEvent {
                     draw: number,
-                    primitive: fragment.primitive,
-                    fate,
-                    after: pixel.color(),
+                    fragment,
+                    merge,
                 });
             }
         }
-        Ok(events)
-    }
-
-    /// The registers of a pixel while the pixel shader runs for one primitive of a draw of the picture; none if that does
-    /// not cover the pixel.
-    ///
-    /// # Errors
-    /// As [`Scene::render`](super::Scene::render).
-    pub fn trace(
-        &self,
-        draw: &PreparedDraw<'_>,
-        primitive: usize,
-        [x, y]: [u32; 2],
-    ) -> Result<Option<PixelTrace>, RenderError> {
-        let shaded = self.rendered().shade(draw);
-        let shader = PixelProgram {
-            kernel: &draw.pixel.kernel,
-            environment: &shaded.environment,
-            picture: None,
-        };
-        let call = shaded.call(draw, &draw.state, self.size());
-        let mut fragments =
-            cover(&call, self.size().into(), (x, y)).map_err(|error| refused(draw, error))?;
-        let found = fragments.find(|fragment| fragment.primitive == primitive);
-        Ok(found.map(|fragment| shader.trace(&fragment.batch, fragment.lane)))
+        Ok(PixelHistory {
+            output,
+            pixel: [x, y],
+            clear,
+            left_out,
+            events: events.into(),
+        })
     }
 }
 
-fn refused(draw: &PreparedDraw<'_>, error: crate::raster::DrawError) -> RenderError {
+fn refused(draw: &PreparedDraw<'_>, error: DrawError) -> RenderError {
     RenderError::Draw {
         draw: draw.name.to_owned(),
         error,

@@ -40,13 +40,14 @@ use crate::texture::Texture;
 pub use draw::Declaration;
 pub use error::{SceneError, rules};
 pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
-pub use history::PixelEvent;
+pub use history::{MAX_EVENTS, PixelEvent, PixelHistory};
 pub use include::MAX_INCLUDES;
 pub use load::{MAX_DRAWS, MAX_ENTRIES};
 pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
 pub use render::{
     DrawnTarget, Progress, RenderError, RenderOptions, Rendering, Show, TargetPicture,
 };
+pub use rendered::ShadedDraw;
 #[cfg(feature = "gpu")]
 pub(crate) use rendered::{Rendered, clear_color};
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};

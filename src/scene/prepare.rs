@@ -6,7 +6,7 @@ use super::error::{Problems, rules};
 use super::shader::Shader;
 use super::{Scene, TextureSource};
 use crate::diagnostic::Span;
-use crate::exec::{STAGES, bind_constants, overrides_definitions};
+use crate::exec::{Environment, STAGES, bind_constants, overrides_definitions};
 use crate::kernel::Kernel;
 use crate::mesh::Mesh;
 use crate::raster::{FogDistance, RenderState, Topology};
@@ -78,6 +78,19 @@ impl PreparedDraw<'_> {
             .and_then(|attribute| self.mesh.value(attribute, vertex))
             .unwrap_or(Vec4::W)
             .to_array()
+    }
+
+    /// What all input registers, `v0` to `v15`, hold for a vertex; see [`Self::input`].
+    pub fn inputs(&self, vertex: usize) -> [[f32; 4]; 16] {
+        std::array::from_fn(|register| self.input(vertex, register))
+    }
+
+    /// What the vertex shader runs with, beside its inputs: the constants.
+    pub fn vertex_environment(&self) -> Environment<'static> {
+        Environment {
+            constants: self.vertex_constants.clone(),
+            ..Environment::default()
+        }
     }
 
     /// Whether a constant that one of the shaders defines itself has been set to something else.

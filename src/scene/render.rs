@@ -6,10 +6,8 @@ use image::RgbaImage;
 
 use super::Scene;
 use super::prepare::{Output, Pass, PreparedDraw};
-use super::rendered::{Rendered, clear_color};
-use crate::raster::{
-    ColorFormat, DrawError, PixelProgram, RegisterPicture, Target, TargetTooLarge, draw,
-};
+use super::rendered::{Rendered, ShadedDraw, ShadedMeshes, clear_color};
+use crate::raster::{ColorFormat, DrawError, RegisterPicture, Target, TargetTooLarge, draw};
 use crate::texture::TextureError;
 
 /// How a scene is rendered.
@@ -171,6 +169,8 @@ impl Scene {
             picture,
             targets,
             rendered: renderer.rendered,
+            shaded: ShadedMeshes::new(&passes),
+            passes,
         })
     }
 
@@ -196,6 +196,8 @@ pub struct Rendering<'a> {
     picture: Target,
     targets: Vec<DrawnTarget>,
     rendered: Rendered<'a>,
+    passes: Vec<Pass<'a>>,
+    shaded: ShadedMeshes,
 }
 
 impl<'a> Rendering<'a> {
@@ -234,9 +236,34 @@ impl<'a> Rendering<'a> {
         [self.picture.width(), self.picture.height()]
     }
 
-    /// The textures of the scene, render targets included.
-    pub(crate) fn rendered(&self) -> &Rendered<'a> {
-        &self.rendered
+    /// What was drawn, in order: [`Scene::passes`] for the size of the picture, which is the last of them.
+    pub fn passes(&self) -> &[Pass<'a>] {
+        &self.passes
+    }
+
+    /// The pass that drew the picture or a face of a render target; none if nothing of the kind was drawn.
+    pub fn pass(&self, output: Output) -> Option<&Pass<'a>> {
+        self.passes.iter().find(|pass| pass.output == output)
+    }
+
+    /// What was drawn into: colour, depth and stencil of the picture or of a face of a render target.
+    pub fn drawn(&self, output: Output) -> Option<&Target> {
+        match output {
+            Output::Picture => Some(&self.picture),
+            Output::Target { target, face } => (self.targets.iter())
+                .find(|drawn| (drawn.target, drawn.face) == (target, face))
+                .map(|drawn| &drawn.drawn),
+        }
+    }
+
+    /// A draw of a pass with its vertices and with what its pixel shader runs with; none if there is no such draw.
+    ///
+    /// The vertex shader runs when a draw is asked for the first time. What it leaves is kept, up to 2²⁰ vertices in all.
+    pub fn shaded(&self, output: Output, draw: usize) -> Option<ShadedDraw<'_>> {
+        let pass = self.passes.iter().position(|pass| pass.output == output)?;
+        let prepared = self.passes.get(pass)?.draws.get(draw)?;
+        let vertices = self.shaded.get(pass, draw, prepared);
+        Some(self.rendered.with_vertices(prepared, vertices))
     }
 }
 
@@ -307,13 +334,8 @@ impl Renderer<'_, '_> {
             state.fog.enable = false;
             state.alpha_test.enable = false;
         }
-        let call = shaded.call(prepared, &state, [target.width(), target.height()]);
-        let shader = PixelProgram {
-            kernel: &prepared.pixel.kernel,
-            environment: &shaded.environment,
-            picture,
-        };
-        let drawn = draw(target, &call, &shader);
+        let call = shaded.call(&state, [target.width(), target.height()]);
+        let drawn = draw(target, &call, &shaded.program(picture));
         drawn.map(|_| ()).map_err(|error| RenderError::Draw {
             draw: prepared.name.to_owned(),
             error,

@@ -1,12 +1,18 @@
 //! What render targets become: textures.
 
+use std::borrow::Cow;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
 use image::RgbaImage;
 
-use super::prepare::PreparedDraw;
+use super::prepare::{Pass, PreparedDraw};
 use super::render::RenderError;
 use super::{Scene, TextureSource};
 use crate::exec::{Environment, Stage};
-use crate::raster::{DrawCall, RenderState, Vertex, Viewport, shade_vertices};
+use crate::raster::{
+    DrawCall, PixelProgram, RegisterPicture, RenderState, Vertex, Viewport, shade_vertices,
+};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 
@@ -84,17 +90,16 @@ impl<'a> Rendered<'a> {
     }
 
     /// Runs the vertex shader of a draw, and puts together what its pixel shader needs.
-    pub(crate) fn shade(&self, draw: &PreparedDraw<'_>) -> ShadedDraw<'_> {
-        let for_vertices = Environment {
-            constants: draw.vertex_constants.clone(),
-            ..Environment::default()
-        };
-        let vertices = shade_vertices(
-            &draw.vertex.kernel,
-            &for_vertices,
-            draw.mesh.vertex_count(),
-            |vertex, register| draw.input(vertex, register),
-        );
+    pub(crate) fn shade<'s>(&'s self, draw: &'s PreparedDraw<'_>) -> ShadedDraw<'s> {
+        self.with_vertices(draw, Cow::Owned(shade(draw)))
+    }
+
+    /// The same of a draw whose vertex shader has run before.
+    pub(super) fn with_vertices<'s>(
+        &'s self,
+        draw: &'s PreparedDraw<'_>,
+        vertices: Cow<'s, [Vertex]>,
+    ) -> ShadedDraw<'s> {
         let environment = Environment {
             constants: draw.pixel_constants.clone(),
             stages: draw.stages.each_ref().map(|stage| Stage {
@@ -104,6 +109,7 @@ impl<'a> Rendered<'a> {
             }),
         };
         ShadedDraw {
+            draw,
             vertices,
             environment,
         }
@@ -119,28 +125,102 @@ impl<'a> Rendered<'a> {
     }
 }
 
-/// A draw whose vertex shader has run, and what its pixel shader runs with.
-pub(crate) struct ShadedDraw<'a> {
-    vertices: Vec<Vertex>,
-    /// The constants, textures and stage states of the pixel shader.
-    pub(crate) environment: Environment<'a>,
+/// Runs the vertex shader of a draw over its whole mesh.
+pub(super) fn shade(draw: &PreparedDraw<'_>) -> Vec<Vertex> {
+    shade_vertices(
+        &draw.vertex.kernel,
+        &draw.vertex_environment(),
+        draw.mesh.vertex_count(),
+        |vertex, register| draw.input(vertex, register),
+    )
 }
 
-impl ShadedDraw<'_> {
-    /// The draw call onto a target of this size.
-    pub(crate) fn call<'c>(
-        &'c self,
-        draw: &'c PreparedDraw<'_>,
-        state: &'c RenderState,
-        [width, height]: [u32; 2],
-    ) -> DrawCall<'c> {
+/// A draw whose vertex shader has run, and what its pixel shader runs with.
+#[derive(Clone, Debug)]
+pub struct ShadedDraw<'a> {
+    draw: &'a PreparedDraw<'a>,
+    vertices: Cow<'a, [Vertex]>,
+    environment: Environment<'a>,
+}
+
+impl<'a> ShadedDraw<'a> {
+    /// The draw.
+    pub fn draw(&self) -> &'a PreparedDraw<'a> {
+        self.draw
+    }
+
+    /// What the vertex shader left of each vertex of the mesh.
+    pub fn vertices(&self) -> &[Vertex] {
+        &self.vertices
+    }
+
+    /// The constants, textures with their samplers, and bump mapping states of the pixel shader.
+    pub fn environment(&self) -> &Environment<'a> {
+        &self.environment
+    }
+
+    /// The pixel shader with all that is set while it runs; with a register in place of the colour, if one is given.
+    pub fn program(&self, picture: Option<RegisterPicture>) -> PixelProgram<'_> {
+        PixelProgram {
+            kernel: &self.draw.pixel.kernel,
+            environment: &self.environment,
+            picture,
+        }
+    }
+
+    /// The draw call onto a target of this size. `state`: that of the draw, or one in its place.
+    pub fn call<'c>(&'c self, state: &'c RenderState, [width, height]: [u32; 2]) -> DrawCall<'c> {
         DrawCall {
             viewport: Viewport::full(width, height),
             state,
-            topology: draw.topology,
+            topology: self.draw.topology,
             vertices: &self.vertices,
-            indices: draw.indices(),
+            indices: self.draw.indices(),
         }
+    }
+}
+
+/// At most so many shaded vertices are kept. They take about 200 bytes each.
+const MOST_KEPT: usize = 1 << 20;
+
+/// The vertices of draws whose vertex shader has run, for those who ask again.
+pub(super) struct ShadedMeshes {
+    /// By pass and draw.
+    meshes: Vec<Vec<OnceLock<Vec<Vertex>>>>,
+    /// How many more may be kept.
+    room: AtomicUsize,
+}
+
+impl ShadedMeshes {
+    /// For the draws of these passes, of which none has run.
+    pub(super) fn new(passes: &[Pass<'_>]) -> Self {
+        let unknown = |pass: &Pass<'_>| pass.draws.iter().map(|_| OnceLock::new()).collect();
+        Self {
+            meshes: passes.iter().map(unknown).collect(),
+            room: AtomicUsize::new(MOST_KEPT),
+        }
+    }
+
+    /// The vertices of a draw, which stands at this place.
+    pub(super) fn get(
+        &self,
+        pass: usize,
+        place: usize,
+        draw: &PreparedDraw<'_>,
+    ) -> Cow<'_, [Vertex]> {
+        let Some(mesh) = self.meshes.get(pass).and_then(|draws| draws.get(place)) else {
+            return Cow::Owned(shade(draw));
+        };
+        if let Some(vertices) = mesh.get() {
+            return Cow::Borrowed(vertices);
+        }
+        // Not within the lock: whoever waits for it may be the one that the shading waits for.
+        let vertices = shade(draw);
+        let taken = |room: usize| room.checked_sub(vertices.len());
+        if self.room.fetch_update(Relaxed, Relaxed, taken).is_err() {
+            return Cow::Owned(vertices);
+        }
+        Cow::Borrowed(mesh.get_or_init(|| vertices))
     }
 }
 

@@ -52,9 +52,12 @@ fn compared(cpu: &Scene, gpu: &Scene) -> Option<FragmentComparison> {
         .frame(gpu, &options, &[], &|_| ())
         .expect("the GPU renders");
     let comparison = compare_pixel(&cpu, &mut gpu, [5, 2]).expect("registers can be had");
-    assert_eq!(comparison.events.len(), 1);
+    assert_eq!(comparison.history.events.len(), 1);
     assert_eq!(
-        (comparison.events[0].draw, comparison.events[0].primitive),
+        (
+            comparison.history.events[0].draw,
+            comparison.history.events[0].fragment.primitive
+        ),
         (0, 0)
     );
     let [fragment] = <[_; 1]>::try_from(comparison.fragments).expect("one primitive is seen");
@@ -249,7 +252,7 @@ state = {{ point_size = 3 }}
             .expect("the GPU renders");
         let comparison = compare_pixel(&cpu, &mut gpu, pixel).expect("registers can be had");
         let fragment = comparison.fragments.last().expect("the pixel is covered");
-        assert_eq!(fragment.event.primitive, primitive, "{topology}");
+        assert_eq!(fragment.event.fragment.primitive, primitive, "{topology}");
         assert!(fragment.covered, "{topology}");
         let difference = fragment.inputs[0].difference();
         assert!(difference <= tolerance, "{topology}: {difference}");

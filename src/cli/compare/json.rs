@@ -5,7 +5,6 @@ use crate::cli::eval::{json_number, json_vector};
 use serde_json::{Map, Value, json};
 use texcrd::gpu::{Differences, Pair, Parting};
 use texcrd::program::Program;
-use texcrd::raster::Fate;
 
 pub(super) fn report(findings: &Findings<'_>) -> Value {
     let arguments = findings.arguments;
@@ -81,17 +80,13 @@ fn one_pixel(findings: &Findings<'_>, pixel: &Pixel) -> Value {
     };
     let draws = findings.draws();
     let name = |draw: usize| draws.get(draw).map(|draw| draw.name);
-    let covered_by: Vec<Value> = (comparison.events.iter())
+    let covered_by: Vec<Value> = (comparison.history.events.iter())
         .map(|event| {
             json!({
                 "draw": name(event.draw),
-                "primitive": event.primitive,
-                "fate": match event.fate {
-                    Fate::Written => "written",
-                    Fate::Killed => "killed",
-                    Fate::Rejected => "rejected",
-                },
-                "after": event.after,
+                "primitive": event.fragment.primitive,
+                "fate": event.merge.fate().name(),
+                "after": event.merge.after.color,
             })
         })
         .collect();
@@ -153,7 +148,7 @@ fn one_fragment(
     };
     let lines: Vec<Value> = fragment.lines.iter().map(line).collect();
     json!({
-        "primitive": fragment.event.primitive,
+        "primitive": fragment.event.fragment.primitive,
         "shader": file,
         "covered_on_gpu": fragment.covered,
         "killed": { "cpu": fragment.killed[0], "gpu": fragment.killed[1] },

@@ -169,23 +169,26 @@ fn covered_by(
     comparison: &PixelComparison,
 ) -> std::fmt::Result {
     let draws = findings.draws();
-    let events = &comparison.events;
+    let events = &comparison.history.events;
     if events.is_empty() {
         return writeln!(out, "nothing is drawn there on the CPU");
     }
-    let left_out = events.len().saturating_sub(MOST_EVENTS);
+    let skipped = events.len().saturating_sub(MOST_EVENTS);
+    let left_out = comparison.history.left_out + skipped;
     writeln!(out, "drawn there on the CPU, in this order")?;
     if left_out > 0 {
         writeln!(out, "  … {left_out} more before these")?;
     }
-    for event in &events[left_out..] {
+    for event in events.iter().skip(skipped) {
         let name = draws.get(event.draw).map_or("", |draw| draw.name);
-        let fate = match event.fate {
-            Fate::Written => color(&event.after),
+        let fate = match event.merge.fate() {
+            Fate::Written => color(&event.merge.after.color),
             Fate::Killed => "taken out by texkill".into(),
-            Fate::Rejected => "fails the alpha, depth or stencil test".into(),
+            fate @ (Fate::AlphaTest | Fate::Stencil | Fate::Depth) => {
+                format!("fails the {} test", fate.name())
+            }
         };
-        let primitive = event.primitive;
+        let primitive = event.fragment.primitive;
         writeln!(out, "  `{name}`, primitive {primitive}: {fate}")?;
     }
     Ok(())
@@ -202,7 +205,7 @@ fn one_fragment(
     };
     let program = &draw.pixel.program;
     let (file, _) = findings.place(program.version_span);
-    let (name, primitive) = (draw.name, fragment.event.primitive);
+    let (name, primitive) = (draw.name, fragment.event.fragment.primitive);
     writeln!(out, "\n`{name}`, primitive {primitive}, {file}")?;
     if !fragment.covered {
         return writeln!(

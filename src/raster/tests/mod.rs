@@ -2,7 +2,9 @@
 
 mod coverage;
 mod inputs;
+mod interpolation;
 mod merging;
+mod record;
 mod robustness;
 
 use glam::{Vec4, vec4};
