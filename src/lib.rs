@@ -6,6 +6,7 @@
 //!
 //! `ARCHITECTURE.md` in the repository says which room knows of which.
 
+pub mod bytecode;
 #[cfg(feature = "scene")]
 pub mod case;
 pub mod diagnostic;

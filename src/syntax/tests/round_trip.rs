@@ -130,6 +130,7 @@ fn programs() -> impl Strategy<Value = Program> {
                 version,
                 version_span: HERE,
                 statements,
+                comments: Vec::new(),
                 span: HERE,
             }
         })
