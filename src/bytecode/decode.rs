@@ -247,8 +247,7 @@ impl Decoder<'_> {
         let name = opcode.mnemonic();
         let Some(&word) = self.words.get(self.at) else {
             let message = format!(
-                "the stream ends in `{name}`, of which {number} of {} are there",
-                counted(count, "operand")
+                "the stream ends in `{name}`: {number} of {count} operand tokens are there"
             );
             self.cut(self.at, &message);
             return Err(Stop::Ends);

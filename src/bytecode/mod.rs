@@ -25,6 +25,22 @@
 //! * There are at most [`MOST_TOKENS`] tokens and [`MOST_ITEMS`] instructions and comments: far more than any device
 //!   took, and what bounds time and memory.
 //!
+//! ```
+//! use texcrd::diagnostic::SourceMap;
+//! use texcrd::{bytecode, syntax};
+//!
+//! let words = [0xFFFF0101, 0x00000001, 0x800F0000, 0x90FF0000, 0x0000FFFF];
+//! let decoded = bytecode::decode(&words);
+//! assert!(decoded.diagnostics.is_empty());
+//! let listing = syntax::print(&decoded.program.expect("its version is known"));
+//! assert_eq!(listing, "ps.1.1\nmov r0, v0.a\n");
+//!
+//! let mut sources = SourceMap::new();
+//! let parsed = syntax::parse(sources.add("listing", listing).expect("a short text"));
+//! let program = parsed.program.expect("it has a version");
+//! assert_eq!(bytecode::encode(&program).expect("it has tokens"), words);
+//! ```
+//!
 //! Of a valid stream, tokens → listing → tokens is the identity. What can be read all the same (bits that were ignored,
 //! tokens behind the end) is a warning; it is lost.
 
@@ -58,8 +74,9 @@ const OPERAND: u32 = 1 << 31;
 /// The most tokens that a stream may have: 1 MiB of them.
 pub const MOST_TOKENS: usize = 1 << 18;
 /// The most instructions, definitions, declarations and comments, or elements of a vertex declaration, that a stream may
-/// hold. The longest shaders that a device took have 128 instructions.
-pub const MOST_ITEMS: usize = 1 << 15;
+/// hold. The longest shaders that a device took have 128 instructions. With both limits the listing of every valid stream
+/// can be read again: it is shorter than a source may be.
+pub const MOST_ITEMS: usize = 1 << 14;
 
 /// Words as the old tools wrote them into files: little-endian.
 pub fn to_bytes(words: &[u32]) -> Vec<u8> {

@@ -24,7 +24,7 @@ rules! {
     RELATIVE "K10" "Only a constant that a vertex shader reads is addressed relative to a0.x.";
     RESERVED "K11" "Bits without meaning are clear.";
     COMMENT "K12" "A comment is no longer than what is left of the stream.";
-    LONG "K13" "A stream has at most 262144 tokens, and 32768 instructions and comments.";
+    LONG "K13" "A stream has at most 262144 tokens, and 16384 instructions and comments.";
     BYTES "K14" "A binary file is a row of 32-bit words, the lowest byte first.";
     TEXT "K15" "Tokens as text are hexadecimal numbers of eight digits, or numbers and macros of d3d8types.h in an array of a C source.";
     SUBTRACT "K16" "A vertex shader subtracts by adding a negated source.";

@@ -152,7 +152,6 @@ pub(super) fn print(words: &[u32]) -> String {
                 (digits, 1, STRING_WORDS / DIGIT_WORDS)
             }
             length => {
-                let length = length.min(STRING_WORDS);
                 let string = rest.get(..length).map_or(String::new(), print_string);
                 (string, length, length)
             }
@@ -170,8 +169,10 @@ pub(super) fn print(words: &[u32]) -> String {
     text
 }
 
-/// How many of the words from the first on are text, filled up with zeros at its end; 0 if they are none.
+/// How many of the words from the first on are text, filled up with zeros at its end, as far as a line goes; 0 if they are
+/// none.
 fn string_length(words: &[u32]) -> usize {
+    let words = words.get(..STRING_WORDS).unwrap_or(words);
     let full = |word: &u32| word.to_le_bytes().into_iter().all(is_text);
     let length = words.iter().take_while(|w| full(w)).count();
     let ends = words.get(length).is_some_and(|word| {
