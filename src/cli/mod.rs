@@ -4,10 +4,12 @@
 //! failed; 2 usage or input and output.
 
 mod adapters;
+mod asm;
 mod baked;
 mod check;
 mod compare;
 mod diagnostics;
+mod dis;
 mod eval;
 mod files;
 mod filters;
@@ -17,6 +19,7 @@ mod reflect;
 mod run;
 mod scene;
 mod show;
+mod streams;
 mod test;
 mod translate;
 
@@ -46,8 +49,10 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Adapters(adapters::Arguments),
+    Asm(asm::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Dis(dis::Arguments),
     Eval(eval::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
@@ -97,6 +102,8 @@ pub(crate) fn main() -> ExitCode {
     }
     let outcome = match command {
         Command::Adapters(arguments) => adapters::run(&arguments),
+        Command::Asm(arguments) => asm::run(&arguments),
+        Command::Dis(arguments) => dis::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),

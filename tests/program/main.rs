@@ -1,8 +1,10 @@
 //! The program, run as people run it.
 #![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
+mod asm;
 mod check;
 mod compare;
+mod dis;
 mod eval;
 mod generate;
 mod run;
