@@ -16,7 +16,6 @@ mod generate;
 mod reflect;
 mod run;
 mod scene;
-mod show;
 mod test;
 mod translate;
 

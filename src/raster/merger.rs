@@ -1,6 +1,6 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
-use super::pixel::{LANES, PixelBatch, PixelResult};
+use super::pixel::{Attribute, LANES, PixelBatch, PixelResult};
 use super::state::{
     BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, RenderState, StencilOp,
 };
@@ -152,54 +152,135 @@ pub(super) fn merge(
     let mut written = 0;
     for quad in 0..batch.quads {
         let lane = 4 * quad;
-        let mut mask = (0..4).fold(0, |mask, i| {
-            mask | u8::from(batch.live[lane + i] && !shaded.killed[lane + i]) << i
-        });
+        let live = |killed: bool| {
+            let is = |i: usize| batch.live[lane + i] && shaded.killed[lane + i] == killed;
+            (0..4).fold(0, |mask, i| mask | u8::from(is(i)) << i)
+        };
+        let mut mask = live(false);
+        if !shaded.shows_killed.is_empty() {
+            show_killed(tile, state, timing, batch, shaded, lane, live(true));
+        }
         if mask == 0 {
             continue;
         }
         // r0 leaves the shader as a colour of 0 to 1; fog and blending come after that.
-        let mut color: QuadColor =
-            std::array::from_fn(|c| std::array::from_fn(|i| unit(shaded.color[c][lane + i])));
+        let mut color = quad_color(&shaded.color, lane);
         if state.alpha_test.enable {
             let test = &state.alpha_test;
             let passes = |i: usize| test.func.passes(to_byte(color[3][i]), test.reference);
             mask &= (0..4).fold(0, |kept, i| kept | u8::from(passes(i)) << i);
         }
         let (x, y) = (batch.x[lane], batch.y[lane]);
-        if let DepthTiming::Late { replaced, .. } = timing {
-            let z = if replaced { &shaded.depth } else { &batch.z };
-            let z: [f32; 4] = std::array::from_fn(|i| unit(z[lane + i]));
+        if let DepthTiming::Late { .. } = timing {
+            let z = late_depths(timing, batch, shaded, lane);
             mask = depth_stencil(tile, state, x, y, &z, mask);
         }
         if mask == 0 {
             continue;
         }
-        fog(&mut color, state, batch, lane);
+        written += u64::from(mask.count_ones());
         let pixels = tile_pixels(x, y);
-        if state.blend.enable {
-            let stored = pixels.map(|at| tile.color[at]);
-            let target: QuadColor =
-                std::array::from_fn(|c| std::array::from_fn(|i| f32::from(stored[i][c]) / 255.0));
-            color = blend(&state.blend, &color, &target);
-        }
-        for (i, at) in pixels.into_iter().enumerate() {
-            if mask >> i & 1 == 0 {
-                continue;
-            }
-            written += 1;
-            let pixel = &mut tile.color[at];
-            for (channel, stored) in pixel.iter_mut().enumerate() {
-                // Without an alpha channel there is a constant 1, which nothing changes.
-                if state.color_mask.writes(channel)
-                    && !(channel == 3 && format == ColorFormat::X8R8G8B8)
-                {
-                    *stored = to_byte(color[channel][i]);
-                }
-            }
+        fog(&mut color, state, batch, lane);
+        put(&mut tile.color, format, state, pixels, mask, color);
+        for (number, plane) in tile.more.iter_mut().enumerate() {
+            let own = shaded.more.get(number).map(|own| {
+                let mut own = quad_color(own, lane);
+                fog(&mut own, state, batch, lane);
+                own
+            });
+            put(plane, format, state, pixels, mask, own.unwrap_or(color));
         }
     }
     written
+}
+
+/// The colours of the quad whose first lane this is, each in 0 to 1.
+#[inline]
+fn quad_color(color: &Attribute, lane: usize) -> QuadColor {
+    std::array::from_fn(|c| std::array::from_fn(|i| unit(color[c][lane + i])))
+}
+
+/// The depths of a quad as the tests after the shader take them.
+#[inline]
+fn late_depths(
+    timing: DepthTiming,
+    batch: &PixelBatch,
+    shaded: &PixelResult,
+    lane: usize,
+) -> [f32; 4] {
+    let z = match timing {
+        DepthTiming::Late { replaced: true, .. } => &shaded.depth,
+        _ => &batch.z,
+    };
+    std::array::from_fn(|i| unit(z[lane + i]))
+}
+
+/// Blends a quad's colours with what a plane of its tile holds, and writes those of the pixels in `mask`.
+#[inline]
+fn put(
+    stored: &mut [[u8; 4]],
+    format: ColorFormat,
+    state: &RenderState,
+    pixels: [usize; 4],
+    mask: u8,
+    mut color: QuadColor,
+) {
+    if state.blend.enable {
+        let stored = pixels.map(|at| stored[at]);
+        let target: QuadColor =
+            std::array::from_fn(|c| std::array::from_fn(|i| f32::from(stored[i][c]) / 255.0));
+        color = blend(&state.blend, &color, &target);
+    }
+    for (i, at) in pixels.into_iter().enumerate() {
+        if mask >> i & 1 == 0 {
+            continue;
+        }
+        for (channel, stored) in stored[at].iter_mut().enumerate() {
+            // Without an alpha channel there is a constant 1, which nothing changes.
+            if state.color_mask.writes(channel)
+                && !(channel == 3 && format == ColorFormat::X8R8G8B8)
+            {
+                *stored = to_byte(color[channel][i]);
+            }
+        }
+    }
+}
+
+/// Puts killed pixels into the planes that show them, where depth and stencil would let them through.
+fn show_killed(
+    tile: &mut Tile,
+    state: &RenderState,
+    timing: DepthTiming,
+    batch: &PixelBatch,
+    shaded: &PixelResult,
+    lane: usize,
+    killed: u8,
+) {
+    let (x, y) = (batch.x[lane], batch.y[lane]);
+    let z = late_depths(timing, batch, shaded, lane);
+    let pixels = tile_pixels(x, y);
+    let mut seen = depth_only(tile, state, x, y, &z, killed);
+    if state.stencil.enable {
+        let stencil = &state.stencil;
+        let reference = stencil.reference & stencil.mask;
+        for (i, at) in pixels.into_iter().enumerate() {
+            if !(stencil.func).passes(reference, tile.stencil[at] & stencil.mask) {
+                seen &= !(1 << i);
+            }
+        }
+    }
+    for number in &shaded.shows_killed {
+        let plane = match number.checked_sub(1) {
+            None => Some(&mut tile.color),
+            Some(further) => tile.more.get_mut(further),
+        };
+        let color = quad_color(shaded.plane(*number), lane);
+        if let Some(plane) = plane {
+            for (i, at) in (pixels.into_iter().enumerate()).filter(|(i, _)| seen >> i & 1 == 1) {
+                plane[at] = color.map(|channel| to_byte(channel[i]));
+            }
+        }
+    }
 }
 
 /// Mixes fog into the colours of the quad whose first lane this is.
@@ -297,7 +378,7 @@ pub fn merge_lone(
 
 /// 0 to 1 as 0 to 255, to the nearest (of two equally near ones the even).
 #[inline]
-fn to_byte(value: f32) -> u8 {
+pub(super) fn to_byte(value: f32) -> u8 {
     // A float of 2^23 or more holds no fractions, so the addition rounds, and leaves the integer in the lowest bits.
     (value * 255.0 + 8_388_608.0).to_bits() as u8
 }

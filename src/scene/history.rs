@@ -36,7 +36,6 @@ impl Rendering<'_> {
             let shader = PixelProgram {
                 kernel: &draw.pixel.kernel,
                 environment: &shaded.environment,
-                picture: None,
             };
             let call = shaded.call(draw, &draw.state, self.size());
             let fragments = cover(&call, self.size().into(), (x, y));
@@ -68,7 +67,6 @@ impl Rendering<'_> {
         let shader = PixelProgram {
             kernel: &draw.pixel.kernel,
             environment: &shaded.environment,
-            picture: None,
         };
         let call = shaded.call(draw, &draw.state, self.size());
         let mut fragments =
