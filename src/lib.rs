@@ -31,6 +31,8 @@ pub mod raster;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod semantics;
+#[cfg(feature = "scene")]
+pub mod sheet;
 pub mod syntax;
 pub mod texture;
 pub mod validate;

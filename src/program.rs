@@ -3,7 +3,7 @@
 //! A [`Program`] says what was written, not whether it is allowed: operands may name registers that the version
 //! does not have. [`crate::validate`] judges it; [`crate::kernel`] lowers what was accepted.
 
-use crate::diagnostic::Span;
+use crate::diagnostic::{SourceMap, Span};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{
     Opcode, RegisterFile, ResultModifier, ShaderKind, SourceModifier, Swizzle, Version, WriteMask,
@@ -142,6 +142,16 @@ pub struct Instruction {
     pub span: Span,
     /// The mnemonic with its suffixes.
     pub mnemonic_span: Span,
+}
+
+impl Instruction {
+    /// The instruction as it stands in its listing, on one line, with its `+`.
+    pub fn text(&self, sources: &SourceMap) -> String {
+        let text = sources.text(self.span);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let plus = if self.co_issue { "+" } else { "" };
+        format!("{plus}{}", words.join(" "))
+    }
 }
 
 /// A destination operand.

@@ -18,7 +18,6 @@ mod generate;
 mod reflect;
 mod run;
 mod scene;
-mod show;
 mod streams;
 mod test;
 mod translate;

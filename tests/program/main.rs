@@ -7,6 +7,7 @@ mod compare;
 mod dis;
 mod eval;
 mod generate;
+mod pictures;
 mod run;
 mod test;
 mod translate;
