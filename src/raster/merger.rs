@@ -2,7 +2,8 @@
 
 use super::pixel::{Attribute, LANES, PixelBatch, PixelResult};
 use super::state::{
-    BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, RenderState, StencilOp,
+    BlendFactor, BlendOp, BlendState, ColorMask, Compare, FogDistance, FogMode, RenderState,
+    StencilOp,
 };
 use super::target::{ColorFormat, TILE, Target, TargetTooLarge, Tile};
 use super::{fog_unit, unit};
@@ -231,8 +232,13 @@ fn put(
             std::array::from_fn(|c| std::array::from_fn(|i| f32::from(stored[i][c]) / 255.0));
         color = blend(&state.blend, &color, &target);
     }
+    let whole = format == ColorFormat::A8R8G8B8 && state.color_mask == ColorMask::ALL;
     for (i, at) in pixels.into_iter().enumerate() {
         if mask >> i & 1 == 0 {
+            continue;
+        }
+        if whole {
+            stored[at] = color.map(|channel| to_byte(channel[i]));
             continue;
         }
         for (channel, stored) in stored[at].iter_mut().enumerate() {
