@@ -310,8 +310,13 @@ fn put(
     let writes = |channel: usize| {
         state.color_mask.writes(channel) && !(channel == 3 && format == ColorFormat::X8R8G8B8)
     };
+    let whole = (0..4).all(writes);
     for (i, at) in pixels.into_iter().enumerate() {
         if mask >> i & 1 == 0 {
+            continue;
+        }
+        if whole {
+            stored[at] = color.map(|channel| to_byte(channel[i]));
             continue;
         }
         for (channel, stored) in stored[at].iter_mut().enumerate() {
