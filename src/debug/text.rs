@@ -108,7 +108,11 @@ impl From<String> for Line {
 /// Without styles; blanks at the end are left out.
 impl fmt::Display for Line {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let text: String = self.pieces.iter().map(|piece| piece.text.as_str()).collect();
+        let text: String = self
+            .pieces
+            .iter()
+            .map(|piece| piece.text.as_str())
+            .collect();
         f.write_str(text.trim_end())
     }
 }

@@ -12,10 +12,19 @@ use crate::isa::WriteMask;
 const MOST_EDITS: usize = 1000;
 
 /// `set r0.rgb = EXPR`, for every pixel of the quad.
-pub(super) fn set(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn set(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     // `set var` is gdb's longer form.
-    let text = arguments.text.strip_prefix("var ").unwrap_or(arguments.text);
-    let (register, value) = text.split_once('=').ok_or("write it as set r0.rgb = 1, 0.5, 0")?;
+    let text = arguments
+        .text
+        .strip_prefix("var ")
+        .unwrap_or(arguments.text);
+    let (register, value) = text
+        .split_once('=')
+        .ok_or("write it as set r0.rgb = 1, 0.5, 0")?;
     if session.edits().len() >= MOST_EDITS {
         return Err(format!("{MOST_EDITS} values are set already; `unset` forgets them").into());
     }
@@ -44,7 +53,10 @@ pub(super) fn set(console: &mut Console, session: &mut Session<'_>, arguments: &
     let mut text = Text::default();
     let line = tell::named(&name).and(tell::numbers(after, mask), Style::Changed);
     let line = tell::swatch(line, kind, mask, after);
-    text.line(line.and(format!("   (was {})", tell::numbers(before[lane], mask)), Style::Dim));
+    text.line(line.and(
+        format!("   (was {})", tell::numbers(before[lane], mask)),
+        Style::Dim,
+    ));
     text.append(travel::arrival(console, session));
     Ok(text.into())
 }
@@ -66,7 +78,11 @@ fn spread(value: &Value, mask: WriteMask) -> Result<[f32; 4], Fault> {
     Ok(spread)
 }
 
-pub(super) fn unset(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn unset(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
     let count = session.edits().len();
     if count == 0 {
@@ -80,9 +96,15 @@ pub(super) fn unset(console: &mut Console, session: &mut Session<'_>, arguments:
 }
 
 /// `diff`: the run before anything was set, beside the run as it is now.
-pub(super) fn diff(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn diff(
+    _: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
-    let original = session.original().ok_or("nothing is set by hand: there is one run only")?;
+    let original = session
+        .original()
+        .ok_or("nothing is set by hand: there is one run only")?;
     let mut text = Text::default();
     for (old, new) in original.iter().zip(session.runs()) {
         text.append(difference(old, new));
@@ -103,13 +125,17 @@ fn difference(old: &Run<'_>, new: &Run<'_>) -> Text {
             continue;
         };
         let kind = new.listing.kind();
-        let name = tell::target_name(change.target, kind) + &tell::mask_text(change.target, change.mask, kind);
+        let name = tell::target_name(change.target, kind)
+            + &tell::mask_text(change.target, change.mask, kind);
         let value = tell::numbers(change.after[lane], change.mask);
         text.line(Line::from(format!("   set {name} = {value}")));
     }
     let steps = |run: &'_ Run<'_>| -> Vec<usize> {
         let numbers = run.moments.iter().enumerate();
-        numbers.filter(|(_, moment)| !set(moment)).map(|(number, _)| number).collect()
+        numbers
+            .filter(|(_, moment)| !set(moment))
+            .map(|(number, _)| number)
+            .collect()
     };
     let pairs = steps(old).into_iter().zip(steps(new));
     let parted = pairs.into_iter().find_map(|(a, b)| {
@@ -133,7 +159,8 @@ fn parts(old: &Moment, new: &Moment, lane: usize) -> bool {
     let written = |moment: &Moment| {
         moment.change.map(|change| {
             let mask = change.mask.components();
-            mask.map(|c| change.after[lane][c].to_bits()).collect::<Vec<_>>()
+            mask.map(|c| change.after[lane][c].to_bits())
+                .collect::<Vec<_>>()
         })
     };
     let killed = |moment: &Moment| match moment.event {
@@ -149,7 +176,8 @@ fn parting(run: &Run<'_>, old: &Moment, new: &Moment) -> Text {
     text.line(match new.instruction {
         Some(number) => {
             let mut line = Line::styled("   they part at", Style::Strong);
-            line.pieces.extend(tell::instruction(run, number, "", Style::Strong).pieces);
+            line.pieces
+                .extend(tell::instruction(run, number, "", Style::Strong).pieces);
             line
         }
         None => Line::styled("   they part at the inputs", Style::Strong),
@@ -158,7 +186,11 @@ fn parting(run: &Run<'_>, old: &Moment, new: &Moment) -> Text {
     if let (Some(a), Some(b)) = (&old.change, &new.change) {
         let name = tell::target_name(b.target, kind) + &tell::mask_text(b.target, b.mask, kind);
         let before = tell::numbers(a.after[lane], b.mask);
-        text.line(two_values(&name, &before, &tell::numbers(b.after[lane], b.mask)));
+        text.line(two_values(
+            &name,
+            &before,
+            &tell::numbers(b.after[lane], b.mask),
+        ));
     }
     text
 }
@@ -178,7 +210,11 @@ fn results(old: &Run<'_>, new: &Run<'_>) -> Text {
         let (x, y) = (a.slot(slot, lane), b.slot(slot, lane));
         if x.map(f32::to_bits) != y.map(f32::to_bits) {
             let all = WriteMask::ALL;
-            text.line(two_values(&slot.name(kind), &tell::numbers(x, all), &tell::numbers(y, all)));
+            text.line(two_values(
+                &slot.name(kind),
+                &tell::numbers(x, all),
+                &tell::numbers(y, all),
+            ));
         }
     }
     if a.killed()[lane] != b.killed()[lane] {
@@ -187,7 +223,8 @@ fn results(old: &Run<'_>, new: &Run<'_>) -> Text {
         text.line(two_values("the pixel", old, new));
     }
     if !text.is_empty() {
-        text.lines.insert(0, Line::styled("   results", Style::Strong));
+        text.lines
+            .insert(0, Line::styled("   results", Style::Strong));
     }
     text
 }

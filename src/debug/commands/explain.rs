@@ -11,10 +11,7 @@ use crate::isa::{ShaderKind, WriteMask};
 use crate::kernel::Slot;
 
 /// The register with components that a text names where one is.
-pub(super) fn register(
-    session: &Session<'_>,
-    text: &str,
-) -> Result<(Target, WriteMask), Fault> {
+pub(super) fn register(session: &Session<'_>, text: &str) -> Result<(Target, WriteMask), Fault> {
     let scope = session.scope().ok_or("there is no run")?;
     let expression: Expression = text.parse()?;
     // What the version does not have is told before that it is no register.
@@ -24,7 +21,11 @@ pub(super) fn register(
 }
 
 /// `why r0.r`: the instructions that made a value, in their order, each with what it wrote and what it read.
-pub(super) fn why(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn why(
+    _: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let run = session.run().ok_or("there is no run")?;
     let kind = run.listing.kind();
     let (target, mask) = match (arguments.text, kind) {
@@ -41,11 +42,7 @@ pub(super) fn why(_: &mut Console, session: &mut Session<'_>, arguments: &Argume
         };
         let heading = (moment.instruction, std::mem::discriminant(&moment.event));
         if last != Some(heading) {
-            text.line(match moment.instruction {
-                Some(number) => tell::instruction(run, number, "", Style::Plain),
-                None if moment.event == Event::Set => Line::from("   set by hand"),
-                None => Line::from("   input"),
-            });
+            text.line(tell::heading(run, moment));
         }
         last = Some(heading);
         text.append(cause_lines(run, cause));
@@ -59,11 +56,17 @@ pub(super) fn why(_: &mut Console, session: &mut Session<'_>, arguments: &Argume
     let name = tell::target_name(target, kind) + &tell::mask_text(target, mask, kind);
     let value = session.registers().target(target)[run.lane & 3];
     if slice.causes.is_empty() {
-        let words = format!("{name} = {}: no instruction has made it", tell::numbers(value, mask));
+        let words = format!(
+            "{name} = {}: no instruction has made it",
+            tell::numbers(value, mask)
+        );
         text.line(Line::from(words));
         return Ok(text.into());
     }
-    let line = Line::styled(format!("   {name} = {}", tell::numbers(value, mask)), Style::Strong);
+    let line = Line::styled(
+        format!("   {name} = {}", tell::numbers(value, mask)),
+        Style::Strong,
+    );
     text.line(tell::swatch(line, kind, mask, value));
     Ok(text.into())
 }
@@ -72,12 +75,13 @@ pub(super) fn why(_: &mut Console, session: &mut Session<'_>, arguments: &Argume
 fn cause_lines(run: &Run<'_>, cause: &Cause) -> Text {
     let kind = run.listing.kind();
     let mut text = Text::default();
-    let Some((moment, change)) = (run.moments.get(cause.moment))
-        .and_then(|moment| Some((moment, moment.change.as_ref()?)))
+    let Some((moment, change)) =
+        (run.moments.get(cause.moment)).and_then(|moment| Some((moment, moment.change.as_ref()?)))
     else {
         return text;
     };
-    let name = tell::target_name(change.target, kind) + &tell::mask_text(change.target, cause.mask, kind);
+    let name =
+        tell::target_name(change.target, kind) + &tell::mask_text(change.target, cause.mask, kind);
     let value = change.after[run.lane & 3];
     let line = tell::named(&name).plain(tell::numbers(value, cause.mask));
     let line = match &moment.event {
@@ -102,9 +106,14 @@ fn cause_lines(run: &Run<'_>, cause: &Cause) -> Text {
 }
 
 /// `quad`: registers of all four pixels.
-pub(super) fn quad(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn quad(
+    _: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let run = session.run().ok_or("there is no run")?;
-    let pixels = pixels(run).ok_or("only a pixel of a scene has a quad: here all four pixels are the same")?;
+    let pixels = pixels(run)
+        .ok_or("only a pixel of a scene has a quad: here all four pixels are the same")?;
     let kind = run.listing.kind();
     let mut rows: Vec<(Target, WriteMask)> = Vec::new();
     for word in arguments.words() {
@@ -129,7 +138,11 @@ pub(super) fn quad(_: &mut Console, session: &mut Session<'_>, arguments: &Argum
         text.line(Line::styled(name, Style::Strong));
         let quad = session.registers().target(target);
         for (lane, value) in quad.iter().enumerate() {
-            let line = Line::from(format!("   {:<20} {}", pixels[lane], tell::numbers(*value, mask)));
+            let line = Line::from(format!(
+                "   {:<20} {}",
+                pixels[lane],
+                tell::numbers(*value, mask)
+            ));
             text.line(tell::swatch(line, kind, mask, *value));
         }
     }
@@ -168,10 +181,12 @@ fn last_level(session: &Session<'_>, run: &Run<'_>, pixels: &[String; 4]) -> Tex
         return text;
     };
     let line = run.listing.line(instruction);
-    text.line(Line::styled(format!("stage {}, line {line}", sample.stage), Style::Strong));
+    text.line(Line::styled(
+        format!("stage {}, line {line}", sample.stage),
+        Style::Strong,
+    ));
     for (pixel, level) in pixels.iter().zip(sample.level) {
         text.line(format!("   {pixel:<20} {}", sample::level_text(level)));
     }
     text
 }
-

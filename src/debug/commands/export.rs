@@ -35,7 +35,11 @@ pub(super) fn formats() -> impl Iterator<Item = &'static str> {
 }
 
 /// `export csv run.csv`; without a file the text is the answer.
-pub(super) fn export(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn export(
+    _: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let text = arguments.text;
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
     let (name, path) = text.split_at(end);
@@ -106,7 +110,11 @@ fn json(runs: &[Run<'_>]) -> String {
 }
 
 fn json_run(run: &Run<'_>) -> String {
-    let moments: Vec<String> = run.moments.iter().map(|moment| json_moment(run, moment)).collect();
+    let moments: Vec<String> = run
+        .moments
+        .iter()
+        .map(|moment| json_moment(run, moment))
+        .collect();
     format!(
         "  {{\"run\": {}, \"version\": {}, \"moments\": [\n{}\n  ]}}",
         quoted(&tell::run_name(run)),

@@ -19,19 +19,59 @@ pub(super) struct Topic {
 
 /// The topics, a row each.
 pub(super) static TOPICS: [Topic; 13] = [
-    row("registers", "temporaries, what was sampled, the address register", |_, s, r| registers(s, r)),
-    row("constants", "the constants that the shader names", |_, s, r| constants(s, r)),
-    row("inputs", "what the shader is given, and where it comes from", |_, s, r| inputs(s, r)),
-    row("outputs", "what the shader leaves behind", |_, s, r| outputs(s, r)),
-    row("textures", "the stages, their textures and states", |_, _, r| textures(r)),
-    row("phase", "the phase of the next instruction", |_, s, r| phase(s, r)),
-    row("budget", "instruction slots used of those allowed", |_, _, r| budget(r)),
+    row(
+        "registers",
+        "temporaries, what was sampled, the address register",
+        |_, s, r| registers(s, r),
+    ),
+    row(
+        "constants",
+        "the constants that the shader names",
+        |_, s, r| constants(s, r),
+    ),
+    row(
+        "inputs",
+        "what the shader is given, and where it comes from",
+        |_, s, r| inputs(s, r),
+    ),
+    row("outputs", "what the shader leaves behind", |_, s, r| {
+        outputs(s, r)
+    }),
+    row(
+        "textures",
+        "the stages, their textures and states",
+        |_, _, r| textures(r),
+    ),
+    row("phase", "the phase of the next instruction", |_, s, r| {
+        phase(s, r)
+    }),
+    row(
+        "budget",
+        "instruction slots used of those allowed",
+        |_, _, r| budget(r),
+    ),
     row("line", "where one is", |_, s, _| travel::location(s)),
-    row("runs", "the runs of the vertices and of the pixel", |_, s, _| travel::runs(s)),
-    row("breakpoints", "breakpoints, watchpoints, log points, what is caught", |c, s, _| stopping::list(c, s)),
+    row(
+        "runs",
+        "the runs of the vertices and of the pixel",
+        |_, s, _| travel::runs(s),
+    ),
+    row(
+        "breakpoints",
+        "breakpoints, watchpoints, log points, what is caught",
+        |c, s, _| stopping::list(c, s),
+    ),
     row("watchpoints", "the same", |c, s, _| stopping::list(c, s)),
-    row("display", "the expressions that are shown after each stop", |c, s, _| display(c, s)),
-    row("all", "registers, constants, inputs, outputs, textures, phase, budget", |c, s, r| all(c, s, r)),
+    row(
+        "display",
+        "the expressions that are shown after each stop",
+        |c, s, _| display(c, s),
+    ),
+    row(
+        "all",
+        "registers, constants, inputs, outputs, textures, phase, budget",
+        |c, s, r| all(c, s, r),
+    ),
 ];
 
 const fn row(
@@ -46,11 +86,18 @@ const fn row(
     }
 }
 
-pub(super) fn info(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn info(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     if arguments.text.is_empty() {
         let mut text = Text::default();
         for topic in &TOPICS {
-            text.line(Line::styled(format!("info {:<12}", topic.name), Style::Strong).plain(topic.summary));
+            text.line(
+                Line::styled(format!("info {:<12}", topic.name), Style::Strong)
+                    .plain(topic.summary),
+            );
         }
         return Ok(text.into());
     }
@@ -88,7 +135,11 @@ fn register(session: &Session<'_>, run: &Run<'_>, slot: Slot) -> Line {
     let written = registers.written(slot);
     let changed = session.last_moment().and_then(|moment| moment.change);
     let changed = changed.is_some_and(|change| change.target == Target::Slot(slot));
-    let style = if changed { Style::Changed } else { Style::Plain };
+    let style = if changed {
+        Style::Changed
+    } else {
+        Style::Plain
+    };
     let line = Line::from(format!("   {:<5} ", slot.name(kind)));
     let line = line.and(tell::register_text(value, written), style);
     tell::swatch(line, kind, written, value)
@@ -144,13 +195,21 @@ fn constants(session: &Session<'_>, run: &Run<'_>) -> Text {
     numbers.dedup();
     let lines = numbers.into_iter().map(|index| {
         let value = registers.constant(index);
-        let defined = kernel.definitions.iter().rev().find(|(number, _)| *number == index);
+        let defined = kernel
+            .definitions
+            .iter()
+            .rev()
+            .find(|(number, _)| *number == index);
         let origin = match defined {
             Some((_, defined)) if *defined == value => "   def",
             Some(_) => "   set over its def",
             None => "",
         };
-        let line = Line::from(format!("   {:<5} {}", format!("c{index}"), tell::numbers(value, WriteMask::ALL)));
+        let line = Line::from(format!(
+            "   {:<5} {}",
+            format!("c{index}"),
+            tell::numbers(value, WriteMask::ALL)
+        ));
         line.and(origin, Style::Dim)
     });
     let text = Text {
@@ -177,7 +236,10 @@ fn inputs(session: &Session<'_>, run: &Run<'_>) -> Text {
 fn outputs(session: &Session<'_>, run: &Run<'_>) -> Text {
     let slots = tell::outputs(run);
     Text {
-        lines: slots.into_iter().map(|slot| register(session, run, slot)).collect(),
+        lines: slots
+            .into_iter()
+            .map(|slot| register(session, run, slot))
+            .collect(),
     }
 }
 
@@ -202,7 +264,11 @@ fn stage_line(number: usize, stage: &Stage<'_>) -> Line {
         count => format!("{count} levels"),
     };
     let [u, v, w] = sampler.address;
-    let address = if u == v && v == w { u.to_string() } else { format!("{u}, {v}, {w}") };
+    let address = if u == v && v == w {
+        u.to_string()
+    } else {
+        format!("{u}, {v}, {w}")
+    };
     Line::from(format!(
         "   stage {number}: {}, {levels}; min {}, mag {}, mip {}, {address}",
         sample::texture_text(texture),
@@ -267,7 +333,12 @@ pub(super) fn register_names(session: &Session<'_>) -> Vec<String> {
     let kind = run.listing.kind();
     let slots = Slot::all().filter(|slot| !slot.is_internal() && used(run, *slot));
     let mut names: Vec<String> = slots.map(|slot| slot.name(kind)).collect();
-    names.extend(run.listing.kernel.constants().map(|index| format!("c{index}")));
+    names.extend(
+        run.listing
+            .kernel
+            .constants()
+            .map(|index| format!("c{index}")),
+    );
     names.sort();
     names.dedup();
     names

@@ -1,6 +1,8 @@
 //! `print`, `display`, `list`, `where`: what is looked at where one is.
 
-use super::{Arguments, Console, Display, Effect, Fault, Outcome, Reply, place, tell, travel};
+use super::{
+    Arguments, Console, Display, Effect, Fault, Outcome, Reply, place, scene, tell, travel,
+};
 use crate::debug::expression::{Expression, Format};
 use crate::debug::run::Listing;
 use crate::debug::session::Session;
@@ -10,7 +12,11 @@ use crate::debug::text::{Line, Style, Text};
 /// More displays than this are refused.
 const MOST_DISPLAYS: usize = 100;
 
-pub(super) fn print(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn print(
+    _: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     if arguments.text.is_empty() {
         return Err("print what? `print r0.rgb`, `print/x c1`, `print dp3(r0, r1)`".into());
     }
@@ -20,13 +26,21 @@ pub(super) fn print(_: &mut Console, session: &mut Session<'_>, arguments: &Argu
 }
 
 /// `r0.rg = 0.5, 0.25`
-fn value_line(session: &Session<'_>, expression: &Expression, format: Format) -> Result<Line, Fault> {
+fn value_line(
+    session: &Session<'_>,
+    expression: &Expression,
+    format: Format,
+) -> Result<Line, Fault> {
     let scope = session.scope().ok_or("there is no run")?;
     let value = expression.evaluate(&scope)?;
     Ok(tell::value_line(&expression.to_string(), &value, format))
 }
 
-pub(super) fn display(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn display(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     if arguments.text.is_empty() {
         return Ok(displayed(console, session).into());
     }
@@ -63,7 +77,11 @@ fn display_line(session: &Session<'_>, display: &Display) -> Line {
     line
 }
 
-pub(super) fn undisplay(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn undisplay(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let mut ids = Vec::new();
     for word in arguments.words() {
         let id = word.parse::<u32>().ok();
@@ -71,12 +89,18 @@ pub(super) fn undisplay(console: &mut Console, _: &mut Session<'_>, arguments: &
         ids.push(known.ok_or_else(|| format!("`{word}` is no number of a display"))?);
     }
     let all = ids.is_empty();
-    console.displays.retain(|display| !all && !ids.contains(&display.id));
+    console
+        .displays
+        .retain(|display| !all && !ids.contains(&display.id));
     Ok(format!("{} left", console.displays.len()).into())
 }
 
 /// `list`: the lines around the next instruction, then those that follow; `list LINE`: the lines around one.
-pub(super) fn list(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn list(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     /// Lines shown at once, and how many of them stand before the one in the middle.
     const SHOWN: usize = 11;
     const BEFORE: usize = 5;
@@ -95,7 +119,10 @@ pub(super) fn list(console: &mut Console, session: &mut Session<'_>, arguments: 
             let place = place::place(session, text)?;
             let listing = place::listing(session, place.kind).ok_or("there is no listing")?;
             // Around the line that was named, whether an instruction stands there or not.
-            let named = text.rsplit(':').next().and_then(|line| line.trim().parse::<usize>().ok());
+            let named = text
+                .rsplit(':')
+                .next()
+                .and_then(|line| line.trim().parse::<usize>().ok());
             let line = named.unwrap_or_else(|| listing.line(place.instruction));
             (listing, line.saturating_sub(BEFORE))
         }
@@ -120,12 +147,21 @@ fn last_line(listing: &Listing<'_>) -> usize {
         let end = file.span().end - file.span().start;
         let last = file.line_at(end);
         // What stands behind the last line end is no line.
-        if file.line(last).is_empty() { last - 1 } else { last }
+        if file.line(last).is_empty() {
+            last - 1
+        } else {
+            last
+        }
     })
 }
 
 /// A line of the source, with `->` where one is and `*` where a breakpoint stands.
-fn source_line(console: &Console, session: &Session<'_>, listing: &Listing<'_>, line: usize) -> Line {
+fn source_line(
+    console: &Console,
+    session: &Session<'_>,
+    listing: &Listing<'_>,
+    line: usize,
+) -> Line {
     let kind = listing.kind();
     let here = session.run().is_some_and(|run| {
         let next = session.next_instruction();
@@ -143,29 +179,31 @@ fn source_line(console: &Console, session: &Session<'_>, listing: &Listing<'_>, 
     Line::styled(format!("{arrow}{star}{line:>4} {source}"), style)
 }
 
-pub(super) fn whereabouts(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn whereabouts(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
     let mut text = Text::default();
     if let Some(run) = session.run() {
         let at = session.position().at;
         let title = tell::run_title(run);
-        text.line(title.and(format!(", moment {at} of {}", run.moments.len()), Style::Dim));
+        text.line(title.and(
+            format!(", moment {at} of {}", run.moments.len()),
+            Style::Dim,
+        ));
     }
     text.append(travel::arrival(console, session));
     Ok(text.into())
 }
 
-/// Refuses what only a scene has.
-fn of_a_scene(session: &Session<'_>) -> Result<(), Fault> {
-    match session.subject() {
-        Subject::Listing(_) => {
-            Err("a listing with values set by hand has no picture: debug a scene for that".into())
-        }
-    }
-}
-
 /// `show r2@12 [FILE]`: registers over the whole frame.
-pub(super) fn show(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn show(
+    _: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let run = session.run().ok_or("there is no run")?;
     let mut shows = Vec::new();
     let mut path = None;
@@ -185,9 +223,13 @@ pub(super) fn show(_: &mut Console, session: &mut Session<'_>, arguments: &Argum
         });
     }
     if shows.is_empty() {
-        return Err("show which register? `show r2@12`, `show r2` here, `show r2@12 r2.png`".into());
+        return Err(
+            "show which register? `show r2@12`, `show r2` here, `show r2@12 r2.png`".into(),
+        );
     }
-    of_a_scene(session)?;
+    if let Subject::Listing(_) = session.subject() {
+        return Err(scene::BY_HAND.into());
+    }
     Ok(Reply {
         effect: Some(Effect::Picture { shows, path }),
         ..Reply::default()
@@ -199,39 +241,10 @@ fn here(session: &Session<'_>) -> String {
     let (Some(run), Some(last)) = (session.run(), session.last_moment()) else {
         return String::new();
     };
-    let line = last.instruction.map(|instruction| run.listing.line(instruction));
+    let line = last
+        .instruction
+        .map(|instruction| run.listing.line(instruction));
     line.map_or(String::new(), |line| format!("@{line}"))
-}
-
-/// `pixel X,Y`: another pixel of the picture.
-pub(super) fn pixel(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
-    let wrong = || Fault("write it as pixel 320,240".to_string());
-    let (x, y) = arguments.text.split_once([',', ' ']).ok_or_else(wrong)?;
-    let number = |text: &str| text.trim().parse::<u32>().map_err(|_| wrong());
-    let pixel = [number(x)?, number(y)?];
-    of_a_scene(session)?;
-    Ok(Reply {
-        effect: Some(Effect::Pixel(pixel)),
-        ..Reply::default()
-    })
-}
-
-/// `vertex N`: a vertex of the mesh.
-pub(super) fn vertex(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
-    let number = arguments.text.parse().ok();
-    let number = number.ok_or("write it as vertex 17")?;
-    of_a_scene(session)?;
-    Ok(Reply {
-        effect: Some(Effect::Vertex(number)),
-        ..Reply::default()
-    })
-}
-
-/// `history`: what touched the pixel.
-pub(super) fn history(_: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
-    arguments.nothing()?;
-    of_a_scene(session)?;
-    Ok(Reply::default())
 }
 
 pub(super) fn quit(_: &mut Console, _: &mut Session<'_>, _: &Arguments<'_>) -> Outcome {

@@ -5,8 +5,9 @@
 //! terminal: what a front must do itself is the [`Effect`] of a reply.
 //!
 //! Files: `table` (the commands, a row each: dispatch, help and completion all read it), `place` (lines and conditions),
-//! `travel` (moving), `stopping` (breakpoints and watchpoints), `look` (print, display, list), `info`, `explain` (why, quad,
-//! history), `change` (set, diff), `export`, `tell` (moments in words), `sample` (texture samples in words), `complete`.
+//! `travel` (moving), `stopping` (breakpoints and watchpoints), `look` (print, display, list), `info`, `explain` (why, quad),
+//! `change` (set, diff), `export`, `scene` (pixel, vertex, history), `complete`; and for words `tell` (moments), `sample` (what was
+//! sampled), `merge` (the output merger).
 
 mod change;
 mod complete;
@@ -14,13 +15,14 @@ mod explain;
 mod export;
 mod info;
 mod look;
+mod merge;
 mod place;
 mod sample;
+mod scene;
 mod stopping;
 mod table;
 mod tell;
-#[cfg(test)]
-mod tests;
+
 mod travel;
 
 pub use table::{CommandHelp, command_help};
@@ -83,10 +85,6 @@ pub enum Effect {
         /// Its content.
         text: String,
     },
-    /// Debug another pixel of the picture.
-    Pixel([u32; 2]),
-    /// Debug another vertex, by its number in the mesh.
-    Vertex(u32),
     /// Picture registers over the whole frame.
     Picture {
         /// What to show, as `run --show` takes it: `r2@12`.
@@ -231,6 +229,7 @@ impl Console {
         if let Some(run) = session.run() {
             text.line(tell::run_title(run));
         }
+        text.append(scene::touched(session));
         text.append(travel::arrival(self, session));
         text
     }
@@ -256,7 +255,9 @@ fn parse(line: &str) -> Result<(&'static Command, Arguments<'_>), Fault> {
         Some(rest) if command.takes_format => {
             let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
             let (letter, text) = rest.split_at(end);
-            let format = letter.parse().map_err(|why| format!("`/{letter}`: {why}"))?;
+            let format = letter
+                .parse()
+                .map_err(|why| format!("`/{letter}`: {why}"))?;
             (Some(format), text)
         }
         Some(_) => return Err(format!("{} takes no format", command.name).into()),

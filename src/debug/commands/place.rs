@@ -71,11 +71,18 @@ fn named<'s>(session: &'s Session<'_>, name: &str) -> Result<Listing<'s>, Fault>
         })
     };
     let found = session.runs().iter().find(fits);
-    let known = session.runs().iter().filter_map(|run| file_name(&run.listing));
+    let known = session
+        .runs()
+        .iter()
+        .filter_map(|run| file_name(&run.listing));
     found.map(|run| run.listing).ok_or_else(|| {
         let mut known: Vec<&str> = known.collect();
         known.dedup();
-        format!("`{name}` is no listing here; there are {}", known.join(", ")).into()
+        format!(
+            "`{name}` is no listing here; there are {}",
+            known.join(", ")
+        )
+        .into()
     })
 }
 

@@ -28,8 +28,16 @@ impl Console {
     }
 
     fn actions(&mut self) -> impl Iterator<Item = &mut Action> {
-        let breakpoints = self.stops.breakpoints.iter_mut().map(|point| &mut point.action);
-        let watchpoints = self.stops.watchpoints.iter_mut().map(|point| &mut point.action);
+        let breakpoints = self
+            .stops
+            .breakpoints
+            .iter_mut()
+            .map(|point| &mut point.action);
+        let watchpoints = self
+            .stops
+            .watchpoints
+            .iter_mut()
+            .map(|point| &mut point.action);
         breakpoints.chain(watchpoints)
     }
 
@@ -59,7 +67,10 @@ fn set(
     let at = place::text(session, place);
     let listing = place::listing(session, place.kind);
     let instruction = listing.map(|listing| listing.text(place.instruction));
-    let line = Line::from(format!(" {id} at {at}  {}", instruction.unwrap_or_default()));
+    let line = Line::from(format!(
+        " {id} at {at}  {}",
+        instruction.unwrap_or_default()
+    ));
     Ok((id, line))
 }
 
@@ -70,13 +81,21 @@ fn headed(word: &str, line: Line) -> Line {
     headed
 }
 
-pub(super) fn breakpoint(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn breakpoint(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let (text, condition) = place::condition(arguments.text)?;
     let (_, line) = set(console, session, text, condition, None)?;
     Ok(headed("breakpoint", line).into())
 }
 
-pub(super) fn temporary(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn temporary(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let (text, condition) = place::condition(arguments.text)?;
     let (id, line) = set(console, session, text, condition, None)?;
     console.temporary.push(id);
@@ -84,17 +103,27 @@ pub(super) fn temporary(console: &mut Console, session: &mut Session<'_>, argume
 }
 
 /// `dprintf 12,"r0 is {r0}"`
-pub(super) fn log_point(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn log_point(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let usage = "write it as dprintf 12,\"r0 is {r0}\"";
     let (text, message) = arguments.text.split_once(',').ok_or(usage)?;
     let message = message.trim();
-    let quoted = message.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+    let quoted = message
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
     let message = quoted.unwrap_or(message).parse()?;
     let (_, line) = set(console, session, text, None, Some(message))?;
     Ok(headed("log point", line).into())
 }
 
-pub(super) fn watchpoint(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn watchpoint(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     console.room_for_a_stop()?;
     let (text, condition) = place::condition(arguments.text)?;
     let run = session.run().ok_or("there is no run")?;
@@ -140,20 +169,38 @@ fn numbers(console: &mut Console, arguments: &Arguments<'_>) -> Result<Vec<u32>,
     Ok(ids)
 }
 
-pub(super) fn delete(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn delete(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let ids = numbers(console, arguments)?;
     let stays = |action: &Action| !ids.contains(&action.id);
-    console.stops.breakpoints.retain(|point| stays(&point.action));
-    console.stops.watchpoints.retain(|point| stays(&point.action));
+    console
+        .stops
+        .breakpoints
+        .retain(|point| stays(&point.action));
+    console
+        .stops
+        .watchpoints
+        .retain(|point| stays(&point.action));
     console.temporary.retain(|id| !ids.contains(id));
     Ok(told(&ids, "deleted"))
 }
 
-pub(super) fn enable(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn enable(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     switch(console, arguments, true)
 }
 
-pub(super) fn disable(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn disable(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     switch(console, arguments, false)
 }
 
@@ -167,7 +214,9 @@ fn switch(console: &mut Console, arguments: &Arguments<'_>, enabled: bool) -> Ou
 
 fn told(ids: &[u32], what: &str) -> Reply {
     if ids.is_empty() {
-        return "there are no breakpoints and watchpoints".to_string().into();
+        return "there are no breakpoints and watchpoints"
+            .to_string()
+            .into();
     }
     let ids: Vec<String> = ids.iter().map(u32::to_string).collect();
     format!("{what}: {}", ids.join(", ")).into()
@@ -182,7 +231,11 @@ fn numbered<'t>(arguments: &Arguments<'t>, usage: &str) -> Result<(u32, &'t str)
     Ok((id, rest.trim()))
 }
 
-pub(super) fn condition(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn condition(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let (id, text) = numbered(arguments, "condition 1 r0.x > 1")?;
     let condition = match text.strip_prefix("if ").unwrap_or(text) {
         "" => None,
@@ -196,7 +249,11 @@ pub(super) fn condition(console: &mut Console, _: &mut Session<'_>, arguments: &
     Ok(words.into())
 }
 
-pub(super) fn ignore(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn ignore(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let (id, text) = numbered(arguments, "ignore 1 2")?;
     let count: u32 = text.parse().map_err(|_| "write it as ignore 1 2")?;
     console.action_of(id)?.hits = match count {
@@ -206,7 +263,11 @@ pub(super) fn ignore(console: &mut Console, _: &mut Session<'_>, arguments: &Arg
     Ok(format!("{id} passes over its first {count} hits").into())
 }
 
-pub(super) fn hits(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn hits(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let (id, text) = numbered(arguments, "hits 1 >= 3")?;
     let hits = match text {
         "" => HitCount::Any,
@@ -226,7 +287,11 @@ fn hits_text(hits: HitCount) -> String {
 }
 
 /// `catch nan`, `catch`
-pub(super) fn catch(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn catch(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let mut wanted = Vec::new();
     for word in arguments.words() {
         wanted.push(occurrence(word)?);
@@ -239,7 +304,11 @@ pub(super) fn catch(console: &mut Console, _: &mut Session<'_>, arguments: &Argu
     Ok(caught(console))
 }
 
-pub(super) fn uncatch(console: &mut Console, _: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn uncatch(
+    console: &mut Console,
+    _: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     if arguments.text.is_empty() {
         console.stops.occurrences.clear();
     }
@@ -247,7 +316,10 @@ pub(super) fn uncatch(console: &mut Console, _: &mut Session<'_>, arguments: &Ar
     for word in arguments.words() {
         unwanted.push(occurrence(word)?);
     }
-    console.stops.occurrences.retain(|what| !unwanted.contains(what));
+    console
+        .stops
+        .occurrences
+        .retain(|what| !unwanted.contains(what));
     Ok(caught(console))
 }
 
@@ -258,7 +330,12 @@ fn occurrence(word: &str) -> Result<Occurrence, Fault> {
 }
 
 fn caught(console: &Console) -> Reply {
-    let names: Vec<_> = console.stops.occurrences.iter().map(|what| what.name()).collect();
+    let names: Vec<_> = console
+        .stops
+        .occurrences
+        .iter()
+        .map(|what| what.name())
+        .collect();
     match names.is_empty() {
         true => "nothing is caught".to_string().into(),
         false => format!("caught: {}", names.join(", ")).into(),
@@ -273,7 +350,10 @@ pub(super) fn list(console: &Console, session: &Session<'_>) -> Text {
             kind: point.kind,
             instruction: point.instruction,
         };
-        let what = match (&point.action.log, console.temporary.contains(&point.action.id)) {
+        let what = match (
+            &point.action.log,
+            console.temporary.contains(&point.action.id),
+        ) {
             (Some(_), _) => "log point",
             (None, true) => "temporary",
             (None, false) => "breakpoint",
@@ -285,7 +365,10 @@ pub(super) fn list(console: &Console, session: &Session<'_>) -> Text {
         rows.push((point.action.id, row(what, &text, &point.action)));
     }
     for point in &console.stops.watchpoints {
-        rows.push((point.action.id, row("watchpoint", &watched(point), &point.action)));
+        rows.push((
+            point.action.id,
+            row("watchpoint", &watched(point), &point.action),
+        ));
     }
     rows.sort_by_key(|(id, _)| *id);
     let mut text = Text::default();

@@ -1,6 +1,6 @@
 //! Moments in words.
 
-use super::sample;
+use super::{merge, sample};
 use crate::debug::expression::{Format, Value, number_text};
 use crate::debug::moment::{Event, InputSource, Moment, Quad, Read, Target};
 use crate::debug::run::{Registers, Run, RunKind};
@@ -140,12 +140,21 @@ fn group_of_moments(run: &Run<'_>, group: Range<usize>, direction: Direction) ->
 }
 
 /// What a moment is.
-fn heading(run: &Run<'_>, moment: &Moment) -> Line {
-    match (moment.instruction, &moment.event) {
-        (Some(number), _) => instruction(run, number, "", Style::Plain),
-        (None, Event::Input(_)) => Line::from("   input"),
-        (None, Event::Set) => Line::from("   set by hand"),
-        (None, _) => Line::from("   around the shader"),
+pub(super) fn heading(run: &Run<'_>, moment: &Moment) -> Line {
+    match moment.instruction {
+        Some(number) => instruction(run, number, "", Style::Plain),
+        None => Line::from(format!("   {}", around(moment))),
+    }
+}
+
+/// What a moment that belongs to no instruction is called.
+pub(super) fn around(moment: &Moment) -> String {
+    match &moment.event {
+        Event::Input(_) => "input".to_string(),
+        Event::Set => "set by hand".to_string(),
+        Event::Taken => "taken into 0…1 by the rasterizer".to_string(),
+        Event::Merge(stage) => format!("output merger: {}", merge::name(stage)),
+        Event::Step { .. } | Event::Nothing => String::new(),
     }
 }
 
@@ -245,6 +254,9 @@ pub(super) fn details(run: &Run<'_>, number: usize) -> Text {
     {
         text.append(sample::lines(run, sample));
     }
+    if let Event::Merge(stage) = &moment.event {
+        text.append(merge::lines(stage));
+    }
     for words in remarks(run, moment) {
         text.line(remark(words, Style::Remarkable));
     }
@@ -282,7 +294,10 @@ pub(super) fn remarks(run: &Run<'_>, moment: &Moment) -> Vec<String> {
     }
     for (slot, mask) in &moment.lost {
         let components = mask_text(Target::Slot(*slot), *mask, kind);
-        words.push(format!("{}{components} is lost at `phase`", slot.name(kind)));
+        words.push(format!(
+            "{}{components} is lost at `phase`",
+            slot.name(kind)
+        ));
     }
     words
 }
@@ -297,7 +312,10 @@ fn read_remark(run: &Run<'_>, read: &Read) -> Option<String> {
         Place::Slot(slot) if !read.uninitialised.is_empty() => {
             let target = Target::Slot(slot);
             let components = mask_text(target, read.uninitialised, kind);
-            Some(format!("{}{components} is read, and nothing has written it", slot.name(kind)))
+            Some(format!(
+                "{}{components} is read, and nothing has written it",
+                slot.name(kind)
+            ))
         }
         _ => None,
     }
@@ -322,12 +340,17 @@ pub(super) fn read_text(run: &Run<'_>, read: &Read, slots: WriteMask) -> Option<
     let row = read.operand.modifier.row();
     let values = read.values[run.lane & 3];
     let all_one = |slots: WriteMask| {
-        let mut components = slots.components().map(|slot| read.operand.swizzle.slot(slot));
+        let mut components = slots
+            .components()
+            .map(|slot| read.operand.swizzle.slot(slot));
         let first = components.next();
         components.all(|c| Some(c) == first)
     };
     let shown = if all_one(slots) {
-        slots.components().next().map_or(slots, WriteMask::component)
+        slots
+            .components()
+            .next()
+            .map_or(slots, WriteMask::component)
     } else {
         slots
     };
@@ -335,7 +358,9 @@ pub(super) fn read_text(run: &Run<'_>, read: &Read, slots: WriteMask) -> Option<
     let components = if shown == WriteMask::ALL && read.operand.swizzle == Swizzle::IDENTITY {
         String::new()
     } else {
-        let named = shown.components().map(|slot| letters[read.operand.swizzle.slot(slot)]);
+        let named = shown
+            .components()
+            .map(|slot| letters[read.operand.swizzle.slot(slot)]);
         std::iter::once('.').chain(named).collect()
     };
     let relative = match (read.operand.place, read.relative[run.lane & 3]) {
@@ -363,7 +388,12 @@ pub(super) fn results(run: &Run<'_>, registers: &Registers) -> Text {
             _ => run.listing.kernel.written(slot),
         };
         let name = target_name(target, kind) + &mask_text(target, mask, kind);
-        text.line(swatch(named(&name).plain(numbers(value, mask)), kind, mask, value));
+        text.line(swatch(
+            named(&name).plain(numbers(value, mask)),
+            kind,
+            mask,
+            value,
+        ));
     }
     if registers.killed()[run.lane & 3] {
         text.line(remark("the pixel is discarded", Style::Remarkable));
@@ -375,8 +405,7 @@ pub(super) fn results(run: &Run<'_>, registers: &Registers) -> Text {
 pub(super) fn outputs(run: &Run<'_>) -> Vec<Slot> {
     let kernel = run.listing.kernel;
     let result = (run.listing.kind() == ShaderKind::Pixel).then_some(Slot::R0);
-    let written = Slot::all()
-        .filter(|slot| slot.is_output() && !kernel.written(*slot).is_empty());
+    let written = Slot::all().filter(|slot| slot.is_output() && !kernel.written(*slot).is_empty());
     result.into_iter().chain(written).collect()
 }
 

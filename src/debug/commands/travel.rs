@@ -34,19 +34,35 @@ enum Tell {
     Last,
 }
 
-pub(super) fn step(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn step(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     in_steps(console, session, arguments, Forward, one_moment)
 }
 
-pub(super) fn reverse_step(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn reverse_step(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     in_steps(console, session, arguments, Backward, one_moment)
 }
 
-pub(super) fn next(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn next(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     in_steps(console, session, arguments, Forward, one_instruction)
 }
 
-pub(super) fn reverse_next(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn reverse_next(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     in_steps(console, session, arguments, Backward, one_instruction)
 }
 
@@ -56,12 +72,18 @@ fn one_moment(session: &Session<'_>, direction: Direction) -> Option<Position> {
     let length = |run: usize| session.runs().get(run).map(|run| run.moments.len());
     match direction {
         Forward if at < length(run)? => Some(Position { run, at: at + 1 }),
-        Forward => length(run + 1).map(|_| Position { run: run + 1, at: 0 }),
+        Forward => length(run + 1).map(|_| Position {
+            run: run + 1,
+            at: 0,
+        }),
         Backward => match at.checked_sub(1) {
             Some(at) => Some(Position { run, at }),
             None => {
                 let run = run.checked_sub(1)?;
-                Some(Position { run, at: length(run)? })
+                Some(Position {
+                    run,
+                    at: length(run)?,
+                })
             }
         },
     }
@@ -99,7 +121,13 @@ fn in_steps(
             journey.reasons.push(Reason::End);
             break;
         };
-        go(console, session, direction, &Until::Position(target), &mut journey);
+        go(
+            console,
+            session,
+            direction,
+            &Until::Position(target),
+            &mut journey,
+        );
         if journey.is_over() {
             break;
         }
@@ -115,7 +143,9 @@ fn go(
     journey: &mut Journey,
 ) {
     let travel = session.travel(direction, &console.stops, until);
-    journey.logs.extend(travel.logs.into_iter().map(|(_, text)| text));
+    journey
+        .logs
+        .extend(travel.logs.into_iter().map(|(_, text)| text));
     journey.reasons = travel.reasons;
     journey.cause = travel.moment;
 }
@@ -133,21 +163,37 @@ fn go_until(
     Ok(report(console, session, from, direction, journey, Tell::Last).into())
 }
 
-pub(super) fn resume(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn resume(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
     go_until(console, session, Forward, &Until::End)
 }
 
-pub(super) fn reverse_resume(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn reverse_resume(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
     go_until(console, session, Backward, &Until::End)
 }
 
-pub(super) fn until(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn until(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     until_in(console, session, arguments, Forward)
 }
 
-pub(super) fn reverse_until(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn reverse_until(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     until_in(console, session, arguments, Backward)
 }
 
@@ -176,7 +222,11 @@ fn until_in(
     go_until(console, session, direction, &until)
 }
 
-pub(super) fn advance(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn advance(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     if arguments.text.is_empty() {
         return Err("advance to which line?".into());
     }
@@ -188,40 +238,30 @@ pub(super) fn advance(console: &mut Console, session: &mut Session<'_>, argument
     go_until(console, session, Forward, &until)
 }
 
-pub(super) fn finish(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn finish(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
-    let run = session.run().ok_or("there is no run")?;
-    let end = Position {
-        at: run.moments.len(),
-        ..session.position()
-    };
-    if session.position() == end {
-        return Ok(at_an_end(console, session, "this is the end of the run"));
-    }
-    go_until(console, session, Forward, &Until::Position(end))
+    go_until(console, session, Forward, &Until::RunEnd)
 }
 
-pub(super) fn reverse_finish(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn reverse_finish(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     arguments.nothing()?;
-    let beginning = Position {
-        at: 0,
-        ..session.position()
-    };
-    if session.position() == beginning {
-        return Ok(at_an_end(console, session, "this is the beginning of the run"));
-    }
-    go_until(console, session, Backward, &Until::Position(beginning))
-}
-
-fn at_an_end(console: &Console, session: &Session<'_>, words: &str) -> Reply {
-    let mut text = Text::default();
-    text.line(words);
-    text.append(arrival(console, session));
-    text.into()
+    go_until(console, session, Backward, &Until::RunEnd)
 }
 
 /// `start`, `run`: to the first instruction of the first run, or of run N.
-pub(super) fn start(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn start(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let run = match arguments.text {
         "" => 0,
         _ => run_number(session, arguments.text)?,
@@ -230,7 +270,11 @@ pub(super) fn start(console: &mut Console, session: &mut Session<'_>, arguments:
 }
 
 /// `frame`: the runs, or another one.
-pub(super) fn frame(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn frame(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     if arguments.text.is_empty() {
         return Ok(runs(session).into());
     }
@@ -238,14 +282,22 @@ pub(super) fn frame(console: &mut Console, session: &mut Session<'_>, arguments:
     Ok(enter(console, session, run))
 }
 
-pub(super) fn up(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn up(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let count = arguments.count()? as usize;
     let run = session.position().run.checked_sub(count);
     let run = run.ok_or("no run comes before: `info runs` lists them")?;
     Ok(enter(console, session, run))
 }
 
-pub(super) fn down(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn down(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let count = arguments.count()? as usize;
     let run = session.position().run.saturating_add(count);
     if run >= session.runs().len() {
@@ -289,7 +341,11 @@ pub(super) fn runs(session: &Session<'_>) -> Text {
 }
 
 /// `goto`: to a line or a moment, without looking at what lies between.
-pub(super) fn goto(console: &mut Console, session: &mut Session<'_>, arguments: &Arguments<'_>) -> Outcome {
+pub(super) fn goto(
+    console: &mut Console,
+    session: &mut Session<'_>,
+    arguments: &Arguments<'_>,
+) -> Outcome {
     let here = session.position();
     let position = match (arguments.text, arguments.text.strip_prefix('@')) {
         ("", _) => return Err("go where? To a line, or to moment @N of this run".into()),
@@ -361,7 +417,10 @@ fn report(
             && let Some(at) = console.temporary.iter().position(|other| other == id)
         {
             console.temporary.remove(at);
-            console.stops.breakpoints.retain(|point| point.action.id != *id);
+            console
+                .stops
+                .breakpoints
+                .retain(|point| point.action.id != *id);
         }
     }
     text
@@ -376,7 +435,11 @@ fn reason_text(
     match reason {
         Reason::Breakpoint(id) => Some(format!("breakpoint {id}")),
         Reason::Watchpoint(id) => {
-            let point = console.stops.watchpoints.iter().find(|point| point.action.id == id)?;
+            let point = console
+                .stops
+                .watchpoints
+                .iter()
+                .find(|point| point.action.id == id)?;
             let name = super::stopping::watched(point);
             Some(format!("watchpoint {id}: {name}"))
         }
@@ -412,26 +475,23 @@ pub(super) fn location(session: &Session<'_>) -> Text {
         text.append(tell::results(run, session.registers()));
         return text;
     };
-    let words = match (moment.instruction, &moment.event) {
-        (Some(number), _) => {
-            let line = tell::instruction(run, number, "->", Style::Marked);
-            let group = run.group(at);
-            let rows = group.len();
-            text.line(match at - group.start {
-                _ if rows < 2 => line,
-                row => line.and(format!("   (part {} of {rows})", row + 1), Style::Dim),
-            });
-            return text;
+    if let Some(number) = moment.instruction {
+        let line = tell::instruction(run, number, "->", Style::Marked);
+        let group = run.group(at);
+        let rows = group.len();
+        text.line(match at - group.start {
+            _ if rows < 2 => line,
+            row => line.and(format!("   (part {} of {rows})", row + 1), Style::Dim),
+        });
+        return text;
+    }
+    let what = tell::around(moment);
+    let words = match (&moment.event, &moment.change) {
+        (Event::Input(_), Some(change)) => {
+            let name = tell::target_name(change.target, run.listing.kind());
+            format!("-> {what} {name}")
         }
-        (None, Event::Input(_)) => match &moment.change {
-            Some(change) => {
-                let name = tell::target_name(change.target, run.listing.kind());
-                format!("-> input {name}")
-            }
-            None => "-> input".to_string(),
-        },
-        (None, Event::Set) => "-> set by hand".to_string(),
-        (None, _) => "-> around the shader".to_string(),
+        _ => format!("-> {what}"),
     };
     text.line(Line::styled(words, Style::Marked));
     text
