@@ -86,6 +86,13 @@ impl Line {
         self.and(text, Style::Plain)
     }
 
+    /// The line with the pieces of another behind it.
+    #[must_use]
+    pub fn joined(mut self, other: Line) -> Self {
+        self.pieces.extend(other.pieces);
+        self
+    }
+
     /// The line with a field of a colour.
     #[must_use]
     pub fn swatch(self, colour: [u8; 3]) -> Self {

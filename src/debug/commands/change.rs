@@ -175,10 +175,12 @@ fn parting(run: &Run<'_>, old: &Moment, new: &Moment) -> Text {
     let kind = run.listing.kind();
     text.line(match new.instruction {
         Some(number) => {
-            let mut line = Line::styled("   they part at", Style::Strong);
-            line.pieces
-                .extend(tell::instruction(run, number, "", Style::Strong).pieces);
-            line
+            Line::styled("   they part at", Style::Strong).joined(tell::instruction(
+                run,
+                number,
+                "",
+                Style::Strong,
+            ))
         }
         None => Line::styled("   they part at the inputs", Style::Strong),
     });

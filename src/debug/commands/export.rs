@@ -6,7 +6,7 @@ use crate::debug::moment::{Change, Event, Moment};
 use crate::debug::run::Run;
 use crate::debug::session::Session;
 use crate::debug::text::{Line, Text};
-use crate::isa::WriteMask;
+use crate::program::letters;
 
 /// A format with the function that writes it.
 struct Row {
@@ -88,9 +88,9 @@ fn entry(run: &Run<'_>, moment: &Moment) -> Entry {
         (None, _) => String::new(),
     };
     let name = |change: Change| tell::target_name(change.target, kind);
-    let components = |change: Change| {
-        let text = tell::mask_text(change.target, change.mask, kind);
-        text.trim_start_matches('.').to_string()
+    let components = |change: Change| -> String {
+        let letters = letters(kind);
+        change.mask.components().map(|c| letters[c]).collect()
     };
     Entry {
         line: moment.instruction.map(|number| run.listing.line(number)),
@@ -242,11 +242,11 @@ fn markdown(runs: &[Run<'_>]) -> String {
             let line = entry.line.map_or(String::new(), |line| line.to_string());
             let (register, value) = match entry.change {
                 Some(change) => {
-                    let dot = if entry.components.is_empty() { "" } else { "." };
-                    let mask: WriteMask = change.mask;
+                    let kind = run.listing.kind();
+                    let components = tell::mask_text(change.target, change.mask, kind);
                     (
-                        format!("{}{dot}{}", entry.register, entry.components),
-                        tell::numbers(change.after[run.lane & 3], mask),
+                        format!("{}{components}", entry.register),
+                        tell::numbers(change.after[run.lane & 3], change.mask),
                     )
                 }
                 None => Default::default(),

@@ -106,11 +106,15 @@ pub(super) fn info(
     Ok((topic.tell)(console, session, run).into())
 }
 
-/// The topic that a word or the beginning of one names; the first of several, as `gdb` takes `info b` for breakpoints.
+/// The topic that a word or the beginning of one names; the first of several.
 fn topic(word: &str) -> Result<&'static Topic, Fault> {
     let lower = word.to_ascii_lowercase();
-    // `info frame` is gdb's word for where one is.
-    let lower = if lower == "frame" { "line" } else { &lower };
+    // What gdb means by these.
+    let lower = match lower.as_str() {
+        "frame" => "line",
+        "b" => "breakpoints",
+        other => other,
+    };
     let found = TOPICS.iter().find(|topic| topic.name.starts_with(lower));
     found.ok_or_else(|| {
         let names = TOPICS.iter().map(|topic| topic.name);
@@ -141,8 +145,15 @@ fn register(session: &Session<'_>, run: &Run<'_>, slot: Slot) -> Line {
         Style::Plain
     };
     let line = Line::from(format!("   {:<5} ", slot.name(kind)));
-    let line = line.and(tell::register_text(value, written), style);
-    tell::swatch(line, kind, written, value)
+    line.and(tell::register_text(value, written), style)
+}
+
+/// As [`register`], with a field of the colour at the end.
+fn register_line(session: &Session<'_>, run: &Run<'_>, slot: Slot) -> Line {
+    let value = session.registers().slot(slot, run.lane);
+    let written = session.registers().written(slot);
+    let line = register(session, run, slot);
+    tell::swatch(line, run.listing.kind(), written, value)
 }
 
 fn used(run: &Run<'_>, slot: Slot) -> bool {
@@ -171,7 +182,7 @@ fn registers(session: &Session<'_>, run: &Run<'_>) -> Text {
         named && (used(run, *slot) || result == Some(*slot))
     });
     let mut text = Text {
-        lines: slots.map(|slot| register(session, run, slot)).collect(),
+        lines: slots.map(|slot| register_line(session, run, slot)).collect(),
     };
     if session.registers().killed()[run.lane & 3] {
         text.line(Line::styled("   the pixel is discarded", Style::Remarkable));
@@ -227,7 +238,7 @@ fn inputs(session: &Session<'_>, run: &Run<'_>) -> Text {
         let Some(slot) = change.target.slot() else {
             continue;
         };
-        let words = tell::source_text(*source, run.lane);
+        let words = tell::source_text(*source, run.lane, WriteMask::ALL);
         text.line(register(session, run, slot).and(words, Style::Dim));
     }
     none(text, "the shader reads none")
@@ -238,7 +249,7 @@ fn outputs(session: &Session<'_>, run: &Run<'_>) -> Text {
     Text {
         lines: slots
             .into_iter()
-            .map(|slot| register(session, run, slot))
+            .map(|slot| register_line(session, run, slot))
             .collect(),
     }
 }

@@ -122,11 +122,14 @@ fn tested(left: &str, func: Compare, right: &str, passed: bool) -> Line {
 }
 
 fn stored(word: &str, stored: &Stored) -> Line {
+    remark(word, Style::Plain).joined(stored_line(stored))
+}
+
+/// What a pixel of a target holds.
+pub(super) fn stored_line(stored: &Stored) -> Line {
     let [r, g, b, a] = stored.color;
-    remark(
-        format!("{word} #{r:02x}{g:02x}{b:02x} alpha {a} "),
-        Style::Plain,
-    )
-    .swatch([r, g, b])
-    .and(format!(" depth {}", number_text(stored.depth)), Style::Dim)
+    let depth = number_text(stored.depth);
+    Line::from(format!(" #{r:02x}{g:02x}{b:02x} alpha {a}"))
+        .and(format!(" depth {depth} stencil {} ", stored.stencil), Style::Dim)
+        .swatch([r, g, b])
 }

@@ -1,6 +1,6 @@
 //! What was sampled, in words.
 
-use super::tell::{numbers, remark};
+use super::tell::{Detail, numbers, remark};
 use crate::debug::expression::number_text;
 use crate::debug::moment::Sample;
 use crate::debug::run::Run;
@@ -12,8 +12,8 @@ use crate::texture::{CUBE_FACES, Tap, Texture, TextureKind, footprint};
 /// The texels of a sample that are told one by one.
 const MOST_TEXELS: usize = 4;
 
-/// Two to six lines about a sample.
-pub(super) fn lines(run: &Run<'_>, sample: &Sample) -> Text {
+/// One to six lines about a sample.
+pub(super) fn lines(run: &Run<'_>, sample: &Sample, detail: Detail) -> Text {
     let mut text = Text::default();
     let stage = sample.stage;
     let coordinates = sample.coordinates[run.lane & 3];
@@ -44,6 +44,9 @@ pub(super) fn lines(run: &Run<'_>, sample: &Sample) -> Text {
         ),
         Style::Plain,
     ));
+    if detail == Detail::Short {
+        return text;
+    }
     let mut taps = footprint(texture, sampler, coordinates, level).taps;
     taps.retain(|tap| tap.weight > 0.0);
     // The heaviest first; of equally heavy ones the order of reading stays.

@@ -17,10 +17,10 @@ pub(super) const BY_HAND: &str =
 mod of_scenes {
     use super::*;
     use crate::debug::commands::Fault;
+    use crate::debug::commands::merge::stored_line;
     use crate::debug::pixel::{PixelSubject, VertexSubject, Which};
     use crate::debug::subject::Subject;
     use crate::debug::text::{Line, Style};
-    use crate::raster::Stored;
     use crate::scene::{Output, PixelEvent, Rendering};
 
     /// The scene of a session as it was rendered.
@@ -117,21 +117,9 @@ mod of_scenes {
                 number + 1,
                 format!("{}, {}", name(subject, event), event.merge.fate().name())
             );
-            text.line(stored_line(head, &event.merge.after));
+            text.line(Line::from(head).joined(stored_line(&event.merge.after)));
         }
         Ok(text.into())
-    }
-
-    /// What the pixel holds, behind some words.
-    fn stored_line(head: String, stored: &Stored) -> Line {
-        let [r, g, b, a] = stored.color;
-        let line = Line::from(head).plain(format!("#{r:02x}{g:02x}{b:02x} alpha {a} "));
-        let line = line.swatch([r, g, b]);
-        let depth = crate::debug::expression::number_text(stored.depth);
-        line.and(
-            format!(" depth {depth} stencil {}", stored.stencil),
-            Style::Dim,
-        )
     }
 
     /// `pane, primitive 12`

@@ -76,9 +76,7 @@ fn set(
 
 /// A word before a line.
 fn headed(word: &str, line: Line) -> Line {
-    let mut headed = Line::from(word);
-    headed.pieces.extend(line.pieces);
-    headed
+    Line::from(word).joined(line)
 }
 
 pub(super) fn breakpoint(

@@ -176,7 +176,7 @@ pub(super) static COMMANDS: [Command; 47] = [
     row(Move, "up", &[], travel::up)
         .with("[N]", "to the run before: from the pixel to its vertices")
         .repeated(),
-    row(Move, "down", &["dow"], travel::down)
+    row(Move, "down", &[], travel::down)
         .with("[N]", "to the run behind: from the vertices to the pixel")
         .repeated(),
     row(Stop, "break", &["b", "br"], stopping::breakpoint)
@@ -237,7 +237,7 @@ pub(super) static COMMANDS: [Command; 47] = [
     row(Look, "list", &["l"], look::list)
         .with("[LINE]", "the lines around the next instruction or around a line, then those that follow")
         .repeated(),
-    row(Look, "where", &["whe", "bt", "backtrace"], look::whereabouts)
+    row(Look, "where", &["bt", "backtrace"], look::whereabouts)
         .with("", "which run, which instruction comes next, what is displayed"),
     row(Look, "quad", &[], explain::quad)
         .with("[REGISTER]...", "registers of the 2×2 pixels, helpers marked, and the levels of detail of the last sample")

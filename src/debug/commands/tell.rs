@@ -19,7 +19,7 @@ const INDENT: &str = "        ";
 /// Which run it is: `pixel 665,136`, `vertex 17 (corner 2)`.
 pub(super) fn run_name(run: &Run<'_>) -> String {
     match run.kind {
-        RunKind::Listing => "by hand".to_string(),
+        RunKind::Listing => "listing".to_string(),
         RunKind::Vertex {
             corner: None,
             vertex,
@@ -133,7 +133,7 @@ fn group_of_moments(run: &Run<'_>, group: Range<usize>, direction: Direction) ->
     }
     if direction == Direction::Forward {
         for number in group {
-            text.append(details(run, number));
+            text.append(details(run, number, Detail::Full));
         }
     }
     text
@@ -196,9 +196,10 @@ fn change_line(run: &Run<'_>, change: &Joined, moment: &Moment, direction: Direc
         (old, new) = (new, old);
     }
     let line = named(&name).and(numbers(new, change.mask), Style::Changed);
-    let line = swatch(line, kind, change.mask, new);
-    if let Event::Input(source) = moment.event {
-        return line.and(source_text(source, run.lane), Style::Dim);
+    let with_swatch = |line| swatch(line, kind, change.mask, new);
+    if let (Event::Input(source), Direction::Forward) = (&moment.event, direction) {
+        let source = source_text(*source, run.lane, change.mask);
+        return with_swatch(line.and(source, Style::Dim));
     }
     let same = |c: usize| old[c].to_bits() == new[c].to_bits();
     let was = if change.first == change.mask && direction == Direction::Forward {
@@ -208,10 +209,10 @@ fn change_line(run: &Run<'_>, change: &Joined, moment: &Moment, direction: Direc
     } else {
         format!("   (was {})", numbers(old, change.mask))
     };
-    line.and(was, Style::Dim)
+    with_swatch(line.and(was, Style::Dim))
 }
 
-/// A field of the colour, where a pixel shader writes one.
+/// A field of the colour at the end of a line, where a pixel shader writes one.
 pub(super) fn swatch(line: Line, kind: ShaderKind, mask: WriteMask, value: [f32; 4]) -> Line {
     if kind == ShaderKind::Pixel && mask.contains(WriteMask::XYZ) {
         return line.plain(" ").swatch(Value::vector(value).colour());
@@ -219,14 +220,17 @@ pub(super) fn swatch(line: Line, kind: ShaderKind, mask: WriteMask, value: [f32;
     line
 }
 
-/// Where an input comes from.
-pub(super) fn source_text(source: InputSource, lane: usize) -> String {
+/// Where some components of an input come from.
+pub(super) fn source_text(source: InputSource, lane: usize, mask: WriteMask) -> String {
     match source {
         InputSource::Given => "   given".to_string(),
         InputSource::Fetched => "   of the vertex".to_string(),
         InputSource::Interpolated { corners, shares } => {
             let [b, c] = shares[lane & 3];
-            let corners = corners.map(|corner| numbers(corner, WriteMask::ALL));
+            let corners = corners.map(|corner| numbers(corner, mask));
+            if corners[0] == corners[1] && corners[0] == corners[2] {
+                return "   the same at all vertices".to_string();
+            }
             format!(
                 "   interpolated: {} × ({}), {} × ({}), {} × ({})",
                 number_text(1.0 - b - c),
@@ -241,8 +245,17 @@ pub(super) fn source_text(source: InputSource, lane: usize) -> String {
     }
 }
 
+/// How much is told of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// Its texels, too.
+    Full,
+    /// Where it was taken.
+    Short,
+}
+
 /// What is remarkable about a moment, and what it sampled.
-pub(super) fn details(run: &Run<'_>, number: usize) -> Text {
+pub(super) fn details(run: &Run<'_>, number: usize, detail: Detail) -> Text {
     let mut text = Text::default();
     let Some(moment) = run.moments.get(number) else {
         return text;
@@ -252,7 +265,7 @@ pub(super) fn details(run: &Run<'_>, number: usize) -> Text {
         ..
     } = &moment.event
     {
-        text.append(sample::lines(run, sample));
+        text.append(sample::lines(run, sample, detail));
     }
     if let Event::Merge(stage) = &moment.event {
         text.append(merge::lines(stage));
