@@ -174,14 +174,12 @@ fn parting(run: &Run<'_>, old: &Moment, new: &Moment) -> Text {
     let mut text = Text::default();
     let kind = run.listing.kind();
     text.line(match new.instruction {
-        Some(number) => {
-            Line::styled("   they part at", Style::Strong).joined(tell::instruction(
-                run,
-                number,
-                "",
-                Style::Strong,
-            ))
-        }
+        Some(number) => Line::styled("   they part at", Style::Strong).joined(tell::instruction(
+            run,
+            number,
+            "",
+            Style::Strong,
+        )),
         None => Line::styled("   they part at the inputs", Style::Strong),
     });
     let lane = run.lane & 3;

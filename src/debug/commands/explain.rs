@@ -85,7 +85,9 @@ fn cause_lines(run: &Run<'_>, cause: &Cause) -> Text {
     let value = change.after[run.lane & 3];
     let line = tell::named(&name).plain(tell::numbers(value, cause.mask));
     let line = match &moment.event {
-        Event::Input(source) => line.and(tell::source_text(*source, run.lane, cause.mask), Style::Dim),
+        Event::Input(source) => {
+            line.and(tell::source_text(*source, run.lane, cause.mask), Style::Dim)
+        }
         Event::Step { step, reads, .. } => {
             let step = run.listing.kernel.steps.get(*step);
             let texts = reads.iter().enumerate().filter_map(|(i, read)| {

@@ -182,7 +182,9 @@ fn registers(session: &Session<'_>, run: &Run<'_>) -> Text {
         named && (used(run, *slot) || result == Some(*slot))
     });
     let mut text = Text {
-        lines: slots.map(|slot| register_line(session, run, slot)).collect(),
+        lines: slots
+            .map(|slot| register_line(session, run, slot))
+            .collect(),
     };
     if session.registers().killed()[run.lane & 3] {
         text.line(Line::styled("   the pixel is discarded", Style::Remarkable));

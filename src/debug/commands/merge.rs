@@ -130,6 +130,9 @@ pub(super) fn stored_line(stored: &Stored) -> Line {
     let [r, g, b, a] = stored.color;
     let depth = number_text(stored.depth);
     Line::from(format!(" #{r:02x}{g:02x}{b:02x} alpha {a}"))
-        .and(format!(" depth {depth} stencil {} ", stored.stencil), Style::Dim)
+        .and(
+            format!(" depth {depth} stencil {} ", stored.stencil),
+            Style::Dim,
+        )
         .swatch([r, g, b])
 }
