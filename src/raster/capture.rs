@@ -73,12 +73,19 @@ impl<'a> PictureProgram<'a> {
         let Some(plane) = to.result.plane_mut(number) else {
             return;
         };
+        let look = &shot.picture.look;
+        if look
+            .channels(register, shot.written, &batch.live, plane)
+            .is_some()
+        {
+            return;
+        }
         let mut marks = MarkSet::default();
         let live = batch.live.iter().take(4 * batch.quads);
         for (lane, _) in live.enumerate().filter(|(_, live)| **live) {
             let place = [batch.x[lane], batch.y[lane]].map(|at| at as u32);
             let content = register.map(|component| component[lane]);
-            let (color, mark) = shot.picture.look.color(content, shot.written, place);
+            let (color, mark) = look.color(content, shot.written, place);
             put(plane, lane, color);
             mark.into_iter().for_each(|mark| marks.insert(mark));
         }

@@ -90,7 +90,8 @@ pub(super) fn depth_stencil(
             continue;
         }
         let incoming = z[i];
-        let stored = tile.depth[at];
+        let depth = &mut tile.depth[at];
+        let stored = *depth;
         let depth_passes = !state.depth.enable || state.depth.func.passes(incoming, stored);
         let stencil_passes = !state.stencil.enable
             || stencil(
@@ -103,11 +104,11 @@ pub(super) fn depth_stencil(
         if stencil_passes && depth_passes {
             passed |= 1 << i;
             if state.depth.enable && state.depth.write {
-                tile.depth[at] = incoming;
+                *depth = incoming;
             }
         }
         if state.depth.enable && stencil_passes {
-            let after = tile.depth[at];
+            let after = *depth;
             watcher.note(1 << i, |record, _| {
                 record.depth = Some(DepthTested {
                     incoming,
@@ -310,8 +311,13 @@ fn put(
     let writes = |channel: usize| {
         state.color_mask.writes(channel) && !(channel == 3 && format == ColorFormat::X8R8G8B8)
     };
+    let whole = (0..4).all(writes);
     for (i, at) in pixels.into_iter().enumerate() {
         if mask >> i & 1 == 0 {
+            continue;
+        }
+        if whole {
+            stored[at] = color.map(|channel| to_byte(channel[i]));
             continue;
         }
         for (channel, stored) in stored[at].iter_mut().enumerate() {
@@ -381,13 +387,11 @@ pub(super) fn fog(
     if !state.enable {
         return;
     }
-    let factors: [f32; 4] = std::array::from_fn(|i| fog_factor(state, batch, lane + i));
-    let clear = factors.map(fog_unit);
-    let full = state.color.map(unit);
+    let clear: [f32; 4] = std::array::from_fn(|i| fog_unit(fog_factor(state, batch, lane + i)));
     let before = *color;
-    for (channel, fog) in color.iter_mut().zip(full) {
+    for (channel, fog) in color.iter_mut().zip(state.color) {
         for (value, clear) in channel.iter_mut().zip(clear) {
-            *value = clear * *value + (1.0 - clear) * fog;
+            *value = clear * *value + (1.0 - clear) * unit(fog);
         }
     }
     watcher.note(mask, |record, i| {
@@ -401,9 +405,9 @@ pub(super) fn fog(
                     distance: fog_distance(state, batch, lane + i),
                 },
             },
-            factor: factors[i],
+            factor: fog_factor(state, batch, lane + i),
             clear: clear[i],
-            color: full,
+            color: state.color.map(unit),
             before: rgb(&before),
             after: rgb(color),
         });
@@ -453,10 +457,14 @@ fn factors(state: &BlendState) -> [BlendFactor; 2] {
 
 /// Source and target, joined; in 0 to 1.
 pub(super) fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) -> QuadColor {
-    let factors = factors(state);
-    std::array::from_fn(|channel| {
+    let [source_factor, target_factor] = factors(state);
+    let mut joined = *source;
+    for (channel, joined) in joined.iter_mut().enumerate() {
         let join = |op: fn(f32, f32) -> f32| {
-            let [of_source, of_target] = factors.map(|side| factor(side, channel, source, target));
+            let (of_source, of_target) = (
+                factor(source_factor, channel, source, target),
+                factor(target_factor, channel, source, target),
+            );
             std::array::from_fn(|i| {
                 unit(op(
                     source[channel][i] * of_source[i],
@@ -464,14 +472,15 @@ pub(super) fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) 
                 ))
             })
         };
-        match state.op {
+        *joined = match state.op {
             BlendOp::Add => join(|s, d| s + d),
             BlendOp::Subtract => join(|s, d| s - d),
             BlendOp::RevSubtract => join(|s, d| d - s),
             BlendOp::Min => std::array::from_fn(|i| source[channel][i].min(target[channel][i])),
             BlendOp::Max => std::array::from_fn(|i| source[channel][i].max(target[channel][i])),
-        }
-    })
+        };
+    }
+    joined
 }
 
 /// What [`blend`] multiplies both sides of a pixel by, if it does.

@@ -1,6 +1,7 @@
 //! Registers as pictures: which colour a number gets. The only place that says it, for every front and both paths.
 
 use super::merger::to_byte;
+use super::{Attribute, LANES};
 use crate::isa::WriteMask;
 use crate::kernel::{Kernel, Op, Slot};
 
@@ -286,6 +287,76 @@ impl Look {
     }
 }
 
+impl Look {
+    /// How bright the channels of a batch are, as [`Self::color`] has them before they become bytes: most batches of most
+    /// pictures at once. None, with nothing of meaning in `channels`, if a pixel that is live may need a mark or a colour
+    /// that is no brightness.
+    pub(super) fn channels(
+        &self,
+        register: &Attribute,
+        written: WriteMask,
+        live: &[bool; LANES],
+        channels: &mut Attribute,
+    ) -> Option<()> {
+        let shown = self.shown();
+        let grey_sign = self.tone == Tone::Sign && self.is_grey();
+        if self.marks_range || grey_sign || shown.and(written) != shown {
+            return None;
+        }
+        for c in shown.components() {
+            let finite = |(value, live): (&f32, &bool)| value.is_finite() | !live;
+            let all = register[c & 3].iter().zip(live).map(finite);
+            if !all.fold(true, |all, finite| all & finite) {
+                return None;
+            }
+        }
+        let [red, green, blue, alpha] = channels;
+        *alpha = [1.0; LANES];
+        if !self.is_grey() {
+            for (c, channel) in [red, green, blue].into_iter().enumerate() {
+                match shown.has(c) {
+                    true => self.tone.of_lanes(&register[c], self.scale, channel),
+                    false => *channel = [0.0; LANES],
+                }
+            }
+            return Some(());
+        }
+        let mut values = [0.0; LANES];
+        match (self.view, shown.components().next()) {
+            (View::Color, Some(c)) => values = register[c & 3],
+            (View::Color, None) => {}
+            (View::Magnitude, _) => {
+                for (lane, value) in values.iter_mut().enumerate() {
+                    let of = |c: usize| if shown.has(c) { register[c][lane] } else { 0.0 };
+                    *value = length(std::array::from_fn(of));
+                }
+            }
+        }
+        self.tone.of_lanes(&values, self.scale, red);
+        (*green, *blue) = (*red, *red);
+        Some(())
+    }
+}
+
+impl Tone {
+    /// [`Self::brightness`] of many numbers.
+    fn of_lanes(self, values: &[f32; LANES], scale: f32, to: &mut [f32; LANES]) {
+        #[inline(always)]
+        fn each(values: &[f32; LANES], to: &mut [f32; LANES], of: impl Fn(f32) -> f32) {
+            for (value, to) in values.iter().zip(to) {
+                *to = of(*value);
+            }
+        }
+        // A loop of its own for each, with nothing to decide in it.
+        match self {
+            Self::Plain => each(values, to, |value| Self::Plain.brightness(value * scale)),
+            Self::Absolute => each(values, to, |value| Self::Absolute.brightness(value * scale)),
+            Self::Signed => each(values, to, |value| Self::Signed.brightness(value * scale)),
+            Self::Sign => each(values, to, |value| Self::Sign.brightness(value * scale)),
+        }
+    }
+}
+
 /// In double precision, so that the square of a large number is no infinity.
 fn length(values: [f32; 4]) -> f32 {
     let squares = values.map(|value| f64::from(value).powi(2));
@@ -462,6 +533,60 @@ mod tests {
         // Between the stripes what is not written counts as 0, whatever is in it.
         let (color, _) = of(0b0111).color([0.2, 0.2, f32::NAN, 0.2], WriteMask::XY, [4, 0]);
         assert_eq!(color, [51, 51, 0]);
+    }
+
+    /// The short way for a batch gives the same bytes as the long one, wherever it is taken.
+    #[test]
+    fn batches_have_the_colours_of_their_pixels() {
+        let numbers = [
+            0.0, -0.0, 0.25, -0.3, 0.7, 1.0, 1.5, -2.0, 1e-30, 0.499, 3e38,
+        ];
+        let register: Attribute =
+            std::array::from_fn(|c| std::array::from_fn(|lane| numbers[(lane * 5 + c * 3) % 11]));
+        let live: [bool; LANES] = std::array::from_fn(|lane| lane % 3 != 1);
+        let mut taken = 0;
+        for bits in 1..16 {
+            for tone in [Tone::Plain, Tone::Absolute, Tone::Signed, Tone::Sign] {
+                for view in [View::Color, View::Magnitude] {
+                    let look = Look {
+                        components: WriteMask::from_bits(bits),
+                        view,
+                        tone,
+                        scale: -1.7,
+                        marks_range: false,
+                    };
+                    let mut channels = [[0.0; LANES]; 4];
+                    if look
+                        .channels(&register, WriteMask::ALL, &live, &mut channels)
+                        .is_none()
+                    {
+                        assert!(tone == Tone::Sign && look.is_grey());
+                        continue;
+                    }
+                    taken += 1;
+                    for lane in 0..LANES {
+                        let expected = color(&look, register.map(|component| component[lane]));
+                        let bytes =
+                            channels.map(|channel| to_byte(crate::raster::unit(channel[lane])));
+                        let [r, g, b] = expected;
+                        assert_eq!(bytes, [r, g, b, 255], "{look:?}");
+                    }
+                }
+            }
+        }
+        assert!(taken > 80, "{taken}");
+        // A NaN in a pixel that is not live, or that is not shown, is no reason for the long way.
+        let look = Look::default();
+        let mut channels = [[0.0; LANES]; 4];
+        let mut with_nan = register;
+        (with_nan[0][1], with_nan[3][0]) = (f32::NAN, f32::NAN);
+        let mut ask = |register: &Attribute, written| {
+            (look.channels(register, written, &live, &mut channels)).is_some()
+        };
+        assert!(ask(&with_nan, WriteMask::ALL));
+        assert!(!ask(&register, WriteMask::XY));
+        with_nan[1][0] = f32::INFINITY;
+        assert!(!ask(&with_nan, WriteMask::ALL));
     }
 
     #[test]

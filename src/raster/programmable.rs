@@ -131,12 +131,14 @@ impl PixelProgram<'_> {
         others: &[Slot],
     ) {
         for (i, slot) in self.texcoords(others) {
-            *machine.register_mut(slot) = lanes(&batch.texcoords[i], |value| value);
+            fill(machine.register_mut(slot), &batch.texcoords[i], |value| {
+                value
+            });
         }
         for (i, color) in [&batch.diffuse, &batch.specular].into_iter().enumerate() {
             if let Some(slot) = self.color(i, others) {
                 // Interpolated colours reach the shader in 0 to 1.
-                *machine.register_mut(slot) = lanes(color, semantics::saturate);
+                fill(machine.register_mut(slot), color, semantics::saturate);
             }
         }
     }
@@ -192,9 +194,16 @@ impl PixelShader for PixelProgram<'_> {
     }
 }
 
-/// The first lanes of an attribute; lanes that it does not have are 0.
+/// Puts the first lanes of an attribute into a register.
 #[inline]
-fn lanes<const N: usize>(attribute: &Attribute, finish: impl Fn(f32) -> f32) -> Lanes<N> {
-    let of = |component: &[f32; LANES], lane| component.get(lane).copied().map_or(0.0, &finish);
-    (attribute.each_ref()).map(|component| std::array::from_fn(|lane| of(component, lane)))
+fn fill<const N: usize>(
+    register: &mut Lanes<N>,
+    attribute: &Attribute,
+    finish: impl Fn(f32) -> f32,
+) {
+    for (values, given) in register.iter_mut().zip(attribute) {
+        for (value, given) in values.iter_mut().zip(given) {
+            *value = finish(*given);
+        }
+    }
 }

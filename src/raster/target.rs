@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use image::{Rgba, RgbaImage};
+use image::RgbaImage;
 
 /// The side of a tile in pixels. Even, so that no 2×2 quad lies in two tiles.
 pub(super) const TILE: u32 = 64;
@@ -240,13 +240,27 @@ impl Target {
     /// The colours of a plane as a picture; of a plane that there is not, black.
     pub fn plane(&self, number: usize) -> RgbaImage {
         let mut picture = RgbaImage::new(self.width, self.height);
-        for (y, row) in (0..self.height).zip(picture.rows_mut()) {
-            for (x, pixel) in (0..self.width).zip(row) {
-                let plane = |(tile, at): (&Tile, usize)| match number.checked_sub(1) {
-                    None => tile.color.get(at).copied(),
-                    Some(further) => tile.more.get(further)?.get(at).copied(),
+        let across = self.tiles_across() as usize;
+        let row_bytes = 4 * self.width as usize;
+        // A picture without columns has no rows either.
+        let rows = picture.chunks_exact_mut(row_bytes.max(1));
+        for (y, row) in (0..self.height).zip(rows) {
+            let tiles = self.tiles.iter().skip((y / TILE) as usize * across);
+            let within = (y % TILE * TILE) as usize;
+            for (tile, pixels) in tiles.zip(row.chunks_mut(4 * TILE as usize)) {
+                let plane = match number.checked_sub(1) {
+                    None => Some(&tile.color),
+                    Some(further) => tile.more.get(further),
                 };
-                *pixel = Rgba(self.locate(x, y).and_then(plane).unwrap_or_default());
+                let stored = plane.and_then(|plane| plane.get(within..within + TILE as usize));
+                for (pixel, stored) in pixels
+                    .as_chunks_mut()
+                    .0
+                    .iter_mut()
+                    .zip(stored.into_iter().flatten())
+                {
+                    *pixel = *stored;
+                }
             }
         }
         picture

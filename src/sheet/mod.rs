@@ -1,6 +1,39 @@
 //! Contact sheets: pictures of registers side by side, each with its caption, a scale bar that says which colour is which
 //! number, and a legend of what is marked in it.
 //!
+//! ```
+//! use std::collections::BTreeMap;
+//! use texcrd::raster::Look;
+//! use texcrd::scene::{LoadOptions, RenderOptions, Scene, Show, ShowExpression};
+//! use texcrd::sheet::Dressing;
+//!
+//! let text = r#"
+//! size = [64, 48]
+//! [meshes.all]
+//! positions = [[-1, 1, 0], [1, 1, 0], [1, -1, 0]]
+//! [[draw]]
+//! mesh = "all"
+//! vs_text = "vs.1.1\nmov oPos, v0\nmov oT0, v0\n"
+//! ps_text = "ps.1.4\ntexcrd r1.rgb, t0\nmul r0.rgb, r1, r1\n+mov r0.a, r1.b\n"
+//! "#;
+//! let no_files: BTreeMap<String, Vec<u8>> = BTreeMap::new();
+//! let scene = Scene::load("scene.toml", text.as_bytes(), &no_files, &LoadOptions::default())?;
+//!
+//! // One tile for each instruction of the last draw. The last pass is the picture.
+//! let all: ShowExpression = "all".parse()?;
+//! let pass = scene.passes(scene.size()).pop().expect("every scene has a picture");
+//! let tiles = all.tiles(&scene, &pass.draws[scene.shown_draw(None)?], Look::default(), false)?;
+//! assert_eq!(tiles[1].caption, "4 mul r0.rgb, r1, r1");
+//!
+//! let pictures = tiles.iter().map(|tile| tile.picture).collect();
+//! let options = RenderOptions { size: None, show: Some(Show { draw: None, pictures }) };
+//! let drawn = scene.rendering(&options, &|_| {})?;
+//! assert_eq!(drawn.picture().plane(1).dimensions(), (64, 48));
+//! let sheet = drawn.sheet(&tiles, Dressing { captions: true, bars: true })?;
+//! assert!(sheet.width() > 3 * 64);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Files: `layout` (what stands where), `bar` (scale bars and legends), `text` (letters on pictures).
 
 mod bar;
@@ -12,7 +45,7 @@ mod text;
 pub use layout::{Layout, SheetTooLarge};
 
 use crate::raster::{MarkSet, RegisterPicture};
-use image::{GenericImage, Rgba, RgbaImage};
+use image::{Rgba, RgbaImage};
 
 /// What is on a tile.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,8 +86,7 @@ pub fn compose(
     for (number, tile) in tiles.iter().enumerate() {
         let picture = picture(number);
         let [x, y] = layout.picture(number);
-        // Both have the size that the layout was made for; a picture of another one leaves its place empty.
-        let _ = sheet.copy_from(&picture, x, y);
+        place(&mut sheet, &picture, [x, y]);
         for (row, line) in layout.caption(tile).iter().enumerate() {
             let [x, y] = layout.caption_row(number, row);
             text::write(&mut sheet, [x, y], line);
@@ -68,4 +100,19 @@ pub fn compose(
         }
     }
     Ok(sheet)
+}
+
+/// Puts a picture on the sheet, its upper left corner here; what would not fit is left out.
+fn place(sheet: &mut RgbaImage, picture: &RgbaImage, [x, y]: [u32; 2]) {
+    let bytes = |pixels: u32| 4 * pixels as usize;
+    let (across, own) = (bytes(sheet.width()), bytes(picture.width()));
+    if across == 0 || own == 0 {
+        return;
+    }
+    let rows = sheet.chunks_exact_mut(across).skip(y as usize);
+    for (row, pixels) in rows.zip(picture.chunks_exact(own)) {
+        for (to, from) in row.iter_mut().skip(bytes(x)).zip(pixels) {
+            *to = *from;
+        }
+    }
 }
