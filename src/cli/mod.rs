@@ -8,6 +8,7 @@ mod asm;
 mod baked;
 mod check;
 mod compare;
+mod debug;
 mod diagnostics;
 mod dis;
 mod eval;
@@ -15,6 +16,7 @@ mod files;
 mod filters;
 mod fuzz_match;
 mod generate;
+mod given;
 mod reflect;
 mod run;
 mod scene;
@@ -37,6 +39,7 @@ Examples:
   texcrd translate shader.vsh shader.psh -o shader.wgsl
   texcrd compare asm/stained_glass/figure5.toml
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
+  texcrd debug scene.toml --pixel 665,136
   texcrd test tests/conformance
 
 `-` is standard input. Exit status: 0 done, 1 the input is wrong, 2 usage or I/O.")]
@@ -51,6 +54,7 @@ enum Command {
     Asm(asm::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Debug(debug::Arguments),
     Dis(dis::Arguments),
     Eval(eval::Arguments),
     FuzzMatch(fuzz_match::Arguments),
@@ -104,6 +108,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Asm(arguments) => asm::run(&arguments),
         Command::Dis(arguments) => dis::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Debug(arguments) => debug::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),

@@ -4,6 +4,7 @@
 mod asm;
 mod check;
 mod compare;
+mod debug;
 mod dis;
 mod eval;
 mod generate;
