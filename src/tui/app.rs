@@ -9,7 +9,7 @@ use super::theme::Theme;
 use super::view::{self, Frame, Page, Screen};
 use ratatui::crossterm::event::{Event, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
-use texcrd::debug::{Console, PixelSubject, RunKind, Session, Subject, Which};
+use texcrd::debug::{Console, Effect, Position, Run, Session, Subject, Text};
 
 /// Lines that one turn of the wheel moves.
 const WHEEL: isize = 3;
@@ -42,15 +42,20 @@ pub(super) struct App<'a> {
     pub(super) frame: Option<Frame>,
     /// Whether the marked pixel is to be recorded.
     moved: bool,
+    /// Does what the console leaves to its front.
+    perform: Perform<'a>,
 }
+
+/// Does for a session what a console leaves to its front; gives what there is to say of it, or why it could not be done.
+pub(crate) type Perform<'a> = Box<dyn FnMut(&mut Session<'a>, Effect) -> Result<Text, String> + 'a>;
 
 impl<'a> App<'a> {
     /// A front for a session.
-    pub(super) fn new(session: Session<'a>, console: Console) -> Self {
+    pub(super) fn new(session: Session<'a>, console: Console, perform: Perform<'a>) -> Self {
         let frame = match session.subject() {
             Subject::Pixel(subject) => Some(Frame {
                 image: subject.rendering().picture().to_image(),
-                mark: subject.pixel(),
+                mark: subject.history().pixel,
                 refusal: None,
             }),
             _ => None,
@@ -61,6 +66,7 @@ impl<'a> App<'a> {
             console,
             frame,
             moved: false,
+            perform,
         };
         app.follow();
         app
@@ -202,6 +208,12 @@ impl<'a> App<'a> {
         }
         let reply = self.console.execute(&mut self.session, command);
         self.model.say(reply.text);
+        if let Some(effect) = reply.effect {
+            match (self.perform)(&mut self.session, effect) {
+                Ok(text) => self.model.say(text),
+                Err(why) => self.model.complain(why),
+            }
+        }
         self.follow();
         reply.quit.then_some(Request::Quit)
     }
@@ -212,13 +224,15 @@ impl<'a> App<'a> {
             && !self.moved
             && frame.refusal.is_none()
         {
-            frame.mark = subject.pixel();
+            frame.mark = subject.history().pixel;
         }
         self.model.registers = None;
         if let Some(page) = Page::of(&self.session) {
             let next = self.session.next_instruction();
             let last = page.instructions.len().checked_sub(1);
-            let line = next.or(last).and_then(|instruction| page.line_of(instruction));
+            let line = next
+                .or(last)
+                .and_then(|instruction| page.line_of(instruction));
             self.model.cursor = line.unwrap_or(1);
         }
     }
@@ -228,7 +242,10 @@ impl<'a> App<'a> {
         // The next line that has an instruction, as breakpoints have it.
         let ahead = |target: &usize| *target >= line;
         let target = page.instructions.iter().copied().filter(ahead).min()?;
-        let here = self.session.next_instruction().and_then(|next| page.line_of(next));
+        let here = self
+            .session
+            .next_instruction()
+            .and_then(|next| page.line_of(next));
         let backwards = here.is_none_or(|here| target < here);
         let command = if backwards { "reverse-until" } else { "until" };
         self.run(&format!("{command} {target}"))
@@ -241,7 +258,8 @@ impl<'a> App<'a> {
         };
         let ahead = page.instructions.iter().copied().filter(|at| *at >= line);
         let Some(target) = ahead.min() else {
-            self.model.complain(format!("no instruction on line {line} or below"));
+            self.model
+                .complain(format!("no instruction on line {line} or below"));
             return;
         };
         let kind = run.listing.kind();
@@ -295,7 +313,7 @@ impl<'a> App<'a> {
                 model.output_below = scrolled(model.output_below, lines.saturating_neg(), most);
             }
             Pane::Watches => {
-                let all = self.console.watches(&self.session).lines.len();
+                let all = self.console.displays().len();
                 model.watches = scrolled(model.watches, lines, all.saturating_sub(rows));
             }
             Pane::Frame | Pane::Texture | Pane::Quad => {}
@@ -308,7 +326,10 @@ impl<'a> App<'a> {
             return;
         };
         let [column, row] = frame.mark;
-        self.mark([column.saturating_add_signed(x), row.saturating_add_signed(y)]);
+        self.mark([
+            column.saturating_add_signed(x),
+            row.saturating_add_signed(y),
+        ]);
     }
 
     fn mark(&mut self, pixel: [u32; 2]) {
@@ -331,17 +352,19 @@ impl<'a> App<'a> {
         if !std::mem::take(&mut self.moved) {
             return;
         }
-        let (Some(frame), Subject::Pixel(subject)) = (&mut self.frame, self.session.subject())
-        else {
+        let Some(frame) = &mut self.frame else {
             return;
         };
-        match PixelSubject::new(subject.rendering(), frame.mark, &Which::default()) {
-            Ok(subject) => {
+        let before = Place::of(&self.session);
+        match (self.perform)(&mut self.session, Effect::Pixel(frame.mark)) {
+            Ok(_) => {
                 frame.refusal = None;
-                self.session.replace(Subject::Pixel(subject));
+                if let Some(place) = before {
+                    place.find(&mut self.session);
+                }
                 self.follow();
             }
-            Err(error) => frame.refusal = Some(error.to_string()),
+            Err(why) => frame.refusal = Some(why),
         }
     }
 
@@ -392,7 +415,10 @@ impl<'a> App<'a> {
         };
         self.model.focus = pane;
         self.model.typing = false;
-        let Some(room) = layout.body(pane).filter(|room| room.contains((x, y).into())) else {
+        let Some(room) = layout
+            .body(pane)
+            .filter(|room| room.contains((x, y).into()))
+        else {
             return;
         };
         match pane {
@@ -418,13 +444,37 @@ impl<'a> App<'a> {
             self.mark(pixel);
         }
     }
+}
 
-    /// The pixel that is recorded, for tests.
-    #[cfg(test)]
-    pub(super) fn recorded_pixel(&self) -> Option<[u32; 2]> {
-        self.session.runs().iter().find_map(|run| match run.kind {
-            RunKind::Pixel { pixel } => Some(pixel),
-            _ => None,
+/// A place in the last run, which another pixel may have as well.
+struct Place {
+    /// Where its program lies: the same one has the same instructions.
+    program: *const texcrd::program::Program,
+    /// How many moments after the first instruction begins.
+    after: usize,
+}
+
+impl Place {
+    /// `None` outside of the instructions of the last run.
+    fn of(session: &Session<'_>) -> Option<Self> {
+        let Position { run, at } = session.position();
+        let last = session
+            .runs()
+            .last()
+            .filter(|_| run + 1 == session.runs().len())?;
+        Some(Self {
+            program: last.listing.program,
+            after: at.checked_sub(last.first_instruction())?,
         })
+    }
+
+    /// Goes there, if the last run is one of the same program.
+    fn find(&self, session: &mut Session<'_>) {
+        let same = |run: &&Run<'_>| std::ptr::eq(run.listing.program, self.program);
+        let run = session.runs().len().saturating_sub(1);
+        if let Some(last) = session.runs().last().filter(same) {
+            let at = last.first_instruction() + self.after;
+            session.go_to(Position { run, at });
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! Which key does what. The help is made of these tables.
 
-use super::layout::VIEWS;
 use super::prompt::Edit;
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
@@ -20,7 +19,7 @@ pub(super) enum Action {
         /// On.
         forward: bool,
     },
-    /// A view by its number in [`VIEWS`].
+    /// A view by its number in [`super::layout::VIEWS`].
     View(usize),
     /// So many columns and rows in the pane that has the focus.
     Move(i32, i32),
@@ -95,63 +94,255 @@ const fn bind(keys: &'static [Key], says: &'static str, action: Action) -> Bindi
 
 /// The keys while a pane has the focus.
 pub(super) static PANES: &[Binding] = &[
-    bind(&[function(10, NONE), char('n')], "over the next instruction", Action::Run("next")),
-    bind(&[function(11, NONE), char('s')], "one step: a row of a macro", Action::Run("step")),
-    bind(&[function(10, SHIFT), char('N')], "back over an instruction", Action::Run("reverse-next")),
-    bind(&[function(11, SHIFT), char('b')], "one step back", Action::Run("back")),
-    bind(&[function(5, NONE), char('c')], "continue to a breakpoint", Action::Run("continue")),
-    bind(&[function(5, SHIFT), char('r')], "continue backwards", Action::Run("reverse-continue")),
-    bind(&[function(10, CTRL), char('g')], "run to the cursor line, either way", Action::RunToCursor),
-    bind(&[function(9, NONE)], "breakpoint on the cursor line", Action::ToggleBreakpoint),
-    bind(&[plain(KeyCode::Enter)], "repeat the last command", Action::Repeat),
+    bind(
+        &[function(10, NONE), char('n')],
+        "over the next instruction",
+        Action::Run("next"),
+    ),
+    bind(
+        &[function(11, NONE), char('s')],
+        "one step: a row of a macro",
+        Action::Run("step"),
+    ),
+    bind(
+        &[function(10, SHIFT), char('N')],
+        "back over an instruction",
+        Action::Run("reverse-next"),
+    ),
+    bind(
+        &[function(11, SHIFT), char('b')],
+        "one step back",
+        Action::Run("back"),
+    ),
+    bind(
+        &[function(5, NONE), char('c')],
+        "continue to a breakpoint",
+        Action::Run("continue"),
+    ),
+    bind(
+        &[function(5, SHIFT), char('r')],
+        "continue backwards",
+        Action::Run("reverse-continue"),
+    ),
+    bind(
+        &[function(10, CTRL), char('g')],
+        "run to the cursor line, either way",
+        Action::RunToCursor,
+    ),
+    bind(
+        &[function(9, NONE)],
+        "breakpoint on the cursor line",
+        Action::ToggleBreakpoint,
+    ),
+    bind(
+        &[plain(KeyCode::Enter)],
+        "repeat the last command",
+        Action::Repeat,
+    ),
     bind(&[char(':')], "command line", Action::Type),
-    bind(&[plain(KeyCode::Tab)], "next pane, previous pane", Action::Cycle { forward: true }),
-    bind(&[plain(KeyCode::BackTab)], "next pane, previous pane", Action::Cycle { forward: false }),
-    bind(&[char('1')], "watches, frame, texture, quad", Action::View(0)),
-    bind(&[char('2')], "watches, frame, texture, quad", Action::View(1)),
-    bind(&[char('3')], "watches, frame, texture, quad", Action::View(2)),
-    bind(&[char('4')], "watches, frame, texture, quad", Action::View(3)),
-    bind(&[plain(KeyCode::Up)], "cursor, scroll; in the frame: pixel", Action::Move(0, -1)),
-    bind(&[plain(KeyCode::Down)], "cursor, scroll; in the frame: pixel", Action::Move(0, 1)),
-    bind(&[plain(KeyCode::Left)], "cursor, scroll; in the frame: pixel", Action::Move(-1, 0)),
-    bind(&[plain(KeyCode::Right)], "cursor, scroll; in the frame: pixel", Action::Move(1, 0)),
-    bind(&[plain(KeyCode::PageUp)], "a page up, a page down", Action::Page(-1)),
-    bind(&[plain(KeyCode::PageDown)], "a page up, a page down", Action::Page(1)),
-    bind(&[plain(KeyCode::Home)], "to the beginning, to the end", Action::Far { end: false }),
-    bind(&[plain(KeyCode::End)], "to the beginning, to the end", Action::Far { end: true }),
-    bind(&[(KeyCode::Up, SHIFT), (KeyCode::Up, ALT)], "next pixel, from any pane", Action::Pixel(0, -1)),
-    bind(&[(KeyCode::Down, SHIFT), (KeyCode::Down, ALT)], "next pixel, from any pane", Action::Pixel(0, 1)),
-    bind(&[(KeyCode::Left, SHIFT), (KeyCode::Left, ALT)], "next pixel, from any pane", Action::Pixel(-1, 0)),
-    bind(&[(KeyCode::Right, SHIFT), (KeyCode::Right, ALT)], "next pixel, from any pane", Action::Pixel(1, 0)),
-    bind(&[(KeyCode::Up, CTRL)], "16 pixels on", Action::Pixel(0, -16)),
-    bind(&[(KeyCode::Down, CTRL)], "16 pixels on", Action::Pixel(0, 16)),
-    bind(&[(KeyCode::Left, CTRL)], "16 pixels on", Action::Pixel(-16, 0)),
-    bind(&[(KeyCode::Right, CTRL)], "16 pixels on", Action::Pixel(16, 0)),
-    bind(&[char('+'), char('=')], "enlarge the picture", Action::Zoom { closer: true }),
-    bind(&[char('-')], "shrink the picture", Action::Zoom { closer: false }),
+    bind(
+        &[plain(KeyCode::Tab)],
+        "next pane, previous pane",
+        Action::Cycle { forward: true },
+    ),
+    bind(
+        &[plain(KeyCode::BackTab)],
+        "next pane, previous pane",
+        Action::Cycle { forward: false },
+    ),
+    bind(
+        &[char('1')],
+        "watches, frame, texture, quad",
+        Action::View(0),
+    ),
+    bind(
+        &[char('2')],
+        "watches, frame, texture, quad",
+        Action::View(1),
+    ),
+    bind(
+        &[char('3')],
+        "watches, frame, texture, quad",
+        Action::View(2),
+    ),
+    bind(
+        &[char('4')],
+        "watches, frame, texture, quad",
+        Action::View(3),
+    ),
+    bind(
+        &[plain(KeyCode::Up)],
+        "cursor, scroll; in the frame: pixel",
+        Action::Move(0, -1),
+    ),
+    bind(
+        &[plain(KeyCode::Down)],
+        "cursor, scroll; in the frame: pixel",
+        Action::Move(0, 1),
+    ),
+    bind(
+        &[plain(KeyCode::Left)],
+        "cursor, scroll; in the frame: pixel",
+        Action::Move(-1, 0),
+    ),
+    bind(
+        &[plain(KeyCode::Right)],
+        "cursor, scroll; in the frame: pixel",
+        Action::Move(1, 0),
+    ),
+    bind(
+        &[plain(KeyCode::PageUp)],
+        "a page up, a page down",
+        Action::Page(-1),
+    ),
+    bind(
+        &[plain(KeyCode::PageDown)],
+        "a page up, a page down",
+        Action::Page(1),
+    ),
+    bind(
+        &[plain(KeyCode::Home)],
+        "to the beginning, to the end",
+        Action::Far { end: false },
+    ),
+    bind(
+        &[plain(KeyCode::End)],
+        "to the beginning, to the end",
+        Action::Far { end: true },
+    ),
+    bind(
+        &[(KeyCode::Up, SHIFT), (KeyCode::Up, ALT)],
+        "next pixel, from any pane",
+        Action::Pixel(0, -1),
+    ),
+    bind(
+        &[(KeyCode::Down, SHIFT), (KeyCode::Down, ALT)],
+        "next pixel, from any pane",
+        Action::Pixel(0, 1),
+    ),
+    bind(
+        &[(KeyCode::Left, SHIFT), (KeyCode::Left, ALT)],
+        "next pixel, from any pane",
+        Action::Pixel(-1, 0),
+    ),
+    bind(
+        &[(KeyCode::Right, SHIFT), (KeyCode::Right, ALT)],
+        "next pixel, from any pane",
+        Action::Pixel(1, 0),
+    ),
+    bind(
+        &[(KeyCode::Up, CTRL)],
+        "16 pixels on",
+        Action::Pixel(0, -16),
+    ),
+    bind(
+        &[(KeyCode::Down, CTRL)],
+        "16 pixels on",
+        Action::Pixel(0, 16),
+    ),
+    bind(
+        &[(KeyCode::Left, CTRL)],
+        "16 pixels on",
+        Action::Pixel(-16, 0),
+    ),
+    bind(
+        &[(KeyCode::Right, CTRL)],
+        "16 pixels on",
+        Action::Pixel(16, 0),
+    ),
+    bind(
+        &[char('+'), char('=')],
+        "enlarge the picture",
+        Action::Zoom { closer: true },
+    ),
+    bind(
+        &[char('-')],
+        "shrink the picture",
+        Action::Zoom { closer: false },
+    ),
     bind(&[char('?'), function(1, NONE)], "this help", Action::Help),
     bind(&[plain(KeyCode::Esc)], "close the help", Action::Leave),
     bind(&[control('l')], "draw the screen again", Action::Redraw),
     bind(&[control('z')], "suspend", Action::Suspend),
-    bind(&[char('q'), control('c'), control('d')], "quit", Action::Quit),
+    bind(
+        &[char('q'), control('c'), control('d')],
+        "quit",
+        Action::Quit,
+    ),
 ];
 
 /// The keys of the command line, before those of [`PANES`] that are not characters.
 pub(super) static PROMPT: &[Binding] = &[
-    bind(&[plain(KeyCode::Enter)], "run; an empty line repeats", Action::Enter),
-    bind(&[plain(KeyCode::Esc), control('c')], "back to the panes", Action::Leave),
-    bind(&[plain(KeyCode::Tab)], "complete; again: the next one", Action::Complete),
-    bind(&[plain(KeyCode::Up), control('p')], "earlier line, later line", Action::Edit(Edit::Earlier)),
-    bind(&[plain(KeyCode::Down), control('n')], "earlier line, later line", Action::Edit(Edit::Later)),
-    bind(&[plain(KeyCode::Left), control('b')], "left, right", Action::Edit(Edit::Left)),
-    bind(&[plain(KeyCode::Right), control('f')], "left, right", Action::Edit(Edit::Right)),
-    bind(&[plain(KeyCode::Home), control('a')], "beginning, end", Action::Edit(Edit::Home)),
-    bind(&[plain(KeyCode::End), control('e')], "beginning, end", Action::Edit(Edit::End)),
-    bind(&[plain(KeyCode::Backspace), control('h')], "delete", Action::Edit(Edit::Backspace)),
-    bind(&[plain(KeyCode::Delete)], "delete", Action::Edit(Edit::Delete)),
-    bind(&[control('w')], "delete a word", Action::Edit(Edit::DeleteWord)),
-    bind(&[control('u')], "delete the line", Action::Edit(Edit::Clear)),
-    bind(&[control('k')], "delete to the end", Action::Edit(Edit::ClearRight)),
+    bind(
+        &[plain(KeyCode::Enter)],
+        "run; an empty line repeats",
+        Action::Enter,
+    ),
+    bind(
+        &[plain(KeyCode::Esc), control('c')],
+        "back to the panes",
+        Action::Leave,
+    ),
+    bind(
+        &[plain(KeyCode::Tab)],
+        "complete; again: the next one",
+        Action::Complete,
+    ),
+    bind(
+        &[plain(KeyCode::Up), control('p')],
+        "earlier line, later line",
+        Action::Edit(Edit::Earlier),
+    ),
+    bind(
+        &[plain(KeyCode::Down), control('n')],
+        "earlier line, later line",
+        Action::Edit(Edit::Later),
+    ),
+    bind(
+        &[plain(KeyCode::Left), control('b')],
+        "left, right",
+        Action::Edit(Edit::Left),
+    ),
+    bind(
+        &[plain(KeyCode::Right), control('f')],
+        "left, right",
+        Action::Edit(Edit::Right),
+    ),
+    bind(
+        &[plain(KeyCode::Home), control('a')],
+        "beginning, end",
+        Action::Edit(Edit::Home),
+    ),
+    bind(
+        &[plain(KeyCode::End), control('e')],
+        "beginning, end",
+        Action::Edit(Edit::End),
+    ),
+    bind(
+        &[plain(KeyCode::Backspace), control('h')],
+        "delete",
+        Action::Edit(Edit::Backspace),
+    ),
+    bind(
+        &[plain(KeyCode::Delete)],
+        "delete",
+        Action::Edit(Edit::Delete),
+    ),
+    bind(
+        &[control('w')],
+        "delete a word",
+        Action::Edit(Edit::DeleteWord),
+    ),
+    bind(
+        &[control('u')],
+        "delete the line",
+        Action::Edit(Edit::Clear),
+    ),
+    bind(
+        &[control('k')],
+        "delete to the end",
+        Action::Edit(Edit::ClearRight),
+    ),
 ];
 
 /// What a key asks for, while a pane has the focus or while one is `typing` a command.
@@ -218,6 +409,7 @@ fn name((code, modifiers): Key) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::layout::VIEWS;
     use super::*;
 
     fn press(code: KeyCode, modifiers: KeyModifiers, typing: bool) -> Option<Action> {
@@ -229,9 +421,15 @@ mod tests {
         let pressed = |code, modifiers| press(code, modifiers, false);
         assert_eq!(pressed(KeyCode::F(10), NONE), Some(Action::Run("next")));
         assert_eq!(pressed(KeyCode::F(11), SHIFT), Some(Action::Run("back")));
-        assert_eq!(pressed(KeyCode::Char('N'), SHIFT), Some(Action::Run("reverse-next")));
+        assert_eq!(
+            pressed(KeyCode::Char('N'), SHIFT),
+            Some(Action::Run("reverse-next"))
+        );
         assert_eq!(pressed(KeyCode::Char('?'), SHIFT), Some(Action::Help));
-        assert_eq!(pressed(KeyCode::Char('p'), NONE), Some(Action::TypeFirst('p')));
+        assert_eq!(
+            pressed(KeyCode::Char('p'), NONE),
+            Some(Action::TypeFirst('p'))
+        );
         assert_eq!(pressed(KeyCode::Char('7'), NONE), None);
         assert_eq!(pressed(KeyCode::Left, ALT), Some(Action::Pixel(-1, 0)));
         let released = KeyEvent::new_with_kind(KeyCode::F(10), NONE, KeyEventKind::Release);
@@ -241,8 +439,14 @@ mod tests {
     #[test]
     fn the_command_line_takes_characters_and_leaves_function_keys() {
         let typed = |code, modifiers| press(code, modifiers, true);
-        assert_eq!(typed(KeyCode::Char('q'), NONE), Some(Action::Edit(Edit::Insert('q'))));
-        assert_eq!(typed(KeyCode::Char('?'), SHIFT), Some(Action::Edit(Edit::Insert('?'))));
+        assert_eq!(
+            typed(KeyCode::Char('q'), NONE),
+            Some(Action::Edit(Edit::Insert('q')))
+        );
+        assert_eq!(
+            typed(KeyCode::Char('?'), SHIFT),
+            Some(Action::Edit(Edit::Insert('?')))
+        );
         assert_eq!(typed(KeyCode::Tab, NONE), Some(Action::Complete));
         assert_eq!(typed(KeyCode::Up, NONE), Some(Action::Edit(Edit::Earlier)));
         assert_eq!(typed(KeyCode::Up, SHIFT), Some(Action::Pixel(0, -1)));

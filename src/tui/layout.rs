@@ -67,7 +67,11 @@ impl Layout {
         if area.width < SMALLEST[0] || area.height < SMALLEST[1] {
             return None;
         }
-        let row = |y: u16| Rect { y, height: 1, ..area };
+        let row = |y: u16| Rect {
+            y,
+            height: 1,
+            ..area
+        };
         let inner = Rect {
             y: area.y + 1,
             height: area.height - 2,
@@ -133,7 +137,13 @@ impl Layout {
             width: area.width - left - 1,
             ..area
         };
-        (Rect { width: left, ..area }, right)
+        (
+            Rect {
+                width: left,
+                ..area
+            },
+            right,
+        )
     }
 
     /// The place of a pane, without its heading.
@@ -156,7 +166,10 @@ impl Layout {
     /// The views that the shared place can show with this layout.
     pub(super) fn shares(&self) -> impl Iterator<Item = (usize, Pane)> {
         let elsewhere = |pane: &Pane| {
-            let others = self.panes.split_last().map_or(&[][..], |(_, others)| others);
+            let others = self
+                .panes
+                .split_last()
+                .map_or(&[][..], |(_, others)| others);
             others.iter().any(|(other, _)| other == pane)
         };
         (VIEWS.into_iter().enumerate()).filter(move |(_, pane)| !elsewhere(pane))
@@ -193,7 +206,9 @@ mod tests {
 
     #[test]
     fn every_cell_belongs_to_one_part() {
-        let sizes = (SMALLEST[0]..260).step_by(7).zip((SMALLEST[1]..90).step_by(3));
+        let sizes = (SMALLEST[0]..260)
+            .step_by(7)
+            .zip((SMALLEST[1]..90).step_by(3));
         let sizes = sizes.chain([(80, 24), (80, 23), (120, 40), (SMALLEST[0], SMALLEST[1])]);
         for (width, height) in sizes {
             for view in VIEWS {
@@ -208,7 +223,12 @@ mod tests {
                     let covered = parts.iter().filter(|part| part.contains(position)).count();
                     assert_eq!(covered, 1, "{position} of {width}×{height}");
                 }
-                assert!(layout.panes.iter().all(|(_, a)| a.height >= 7 && a.width >= 32));
+                assert!(
+                    layout
+                        .panes
+                        .iter()
+                        .all(|(_, a)| a.height >= 7 && a.width >= 32)
+                );
                 assert_eq!(layout.body(Pane::Registers).unwrap().width, REGISTERS);
             }
         }

@@ -20,6 +20,7 @@ mod tests;
 mod theme;
 mod view;
 
+pub(crate) use app::Perform;
 pub(crate) use picture::Protocol;
 pub(crate) use terminal::available;
 
@@ -33,17 +34,18 @@ use theme::Theme;
 /// does not leave it behind.
 const MOST_AT_ONCE: usize = 256;
 
-/// Shows a session until one quits. Pictures go through `protocol`, or else through the best that the terminal knows.
+/// Shows a session until one quits. `perform` does what the console leaves to its front. Pictures go through `protocol`, or else through the best that the terminal knows.
 ///
 /// # Errors
 /// The terminal cannot be read or written. It has been given back then.
-pub(crate) fn run(
-    session: Session<'_>,
+pub(crate) fn run<'a>(
+    session: Session<'a>,
     console: Console,
+    perform: Perform<'a>,
     protocol: Option<Protocol>,
 ) -> io::Result<()> {
     let theme = Theme::of_environment(|name| std::env::var(name).ok());
-    let mut app = App::new(session, console);
+    let mut app = App::new(session, console, perform);
     let mut terminal = Terminal::enter(theme, protocol)?;
     loop {
         let cell = terminal.cell();

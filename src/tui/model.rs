@@ -45,7 +45,11 @@ impl Model {
         Self {
             focus: Pane::Listing,
             typing: false,
-            view: if has_frame { Pane::Frame } else { Pane::Watches },
+            view: if has_frame {
+                Pane::Frame
+            } else {
+                Pane::Watches
+            },
             cursor: 1,
             registers: None,
             watches: 0,

@@ -97,7 +97,11 @@ impl Prompt {
             Edit::Backspace | Edit::Delete => {}
             Edit::DeleteWord => {
                 let before = &self.text[..self.cursor];
-                let spaces = before.iter().rev().take_while(|c| c.is_whitespace()).count();
+                let spaces = before
+                    .iter()
+                    .rev()
+                    .take_while(|c| c.is_whitespace())
+                    .count();
                 let word = before.iter().rev().skip(spaces);
                 let count = spaces + word.take_while(|c| !c.is_whitespace()).count();
                 self.text.drain(self.cursor - count..self.cursor);
@@ -226,7 +230,13 @@ mod tests {
         assert_eq!(prompt.text(), "print ");
         prompt.edit(Edit::DeleteWord);
         assert_eq!(prompt.text(), "");
-        for edit in [Edit::Backspace, Edit::Delete, Edit::Left, Edit::Right, Edit::DeleteWord] {
+        for edit in [
+            Edit::Backspace,
+            Edit::Delete,
+            Edit::Left,
+            Edit::Right,
+            Edit::DeleteWord,
+        ] {
             prompt.edit(edit);
         }
         typed(&mut prompt, "é\u{1b}∞");

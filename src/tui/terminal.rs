@@ -12,8 +12,8 @@ use ratatui::backend::CrosstermBackend;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::cursor::{Hide, Show};
 use ratatui::crossterm::event::{
-    self, DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture, Event,
-    KeyCode, KeyModifiers,
+    self, DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
+    Event, KeyCode, KeyModifiers,
 };
 use ratatui::crossterm::style::ResetColor;
 use ratatui::crossterm::terminal::{
@@ -325,8 +325,7 @@ fn worth_asking(theme: Theme, variable: impl Fn(&str) -> Option<String>) -> bool
     let term = variable("TERM").unwrap_or_default();
     let screen = term.starts_with("screen") && variable("TMUX").is_none();
     theme.colours > Colours::Sixteen && !screen && term != "linux"
-        || ["xterm", "mlterm", "contour"].contains(&term.as_str())
-            && theme.colours != Colours::None
+        || ["xterm", "mlterm", "contour"].contains(&term.as_str()) && theme.colours != Colours::None
 }
 
 /// The best way to show pictures. What a terminal says by itself counts more than its name, but for those that say little.
@@ -414,9 +413,8 @@ mod tests {
     #[test]
     fn late_answers_are_no_keys() {
         let mut late = LateAnswers::default();
-        let mut swallowed = |c, modifiers| {
-            late.swallow(&Event::Key(KeyEvent::new(KeyCode::Char(c), modifiers)))
-        };
+        let mut swallowed =
+            |c, modifiers| late.swallow(&Event::Key(KeyEvent::new(KeyCode::Char(c), modifiers)));
         let (none, alt) = (KeyModifiers::NONE, KeyModifiers::ALT);
         assert!(!swallowed('n', none));
         assert!(swallowed('_', alt));

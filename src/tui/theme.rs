@@ -25,7 +25,13 @@ pub(super) struct Theme {
 
 /// Terminals that have all colours and say so by their name alone, which is all that comes through `ssh`.
 const TRUE_COLOUR_TERMINALS: [&str; 7] = [
-    "direct", "kitty", "ghostty", "foot", "alacritty", "wezterm", "contour",
+    "direct",
+    "kitty",
+    "ghostty",
+    "foot",
+    "alacritty",
+    "wezterm",
+    "contour",
 ];
 
 /// Characters from dark to bright.

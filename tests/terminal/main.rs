@@ -43,7 +43,9 @@ impl Terminal {
 
     fn tmux(&self, arguments: &[&str]) -> Output {
         let mut command = Command::new("tmux");
-        command.args(["-L", &self.socket, "-f", "/dev/null"]).args(arguments);
+        command
+            .args(["-L", &self.socket, "-f", "/dev/null"])
+            .args(arguments);
         // Not inside of a multiplexer that the tests may run in.
         command.env_remove("TMUX").output().unwrap()
     }
@@ -87,7 +89,9 @@ impl Terminal {
     /// Whether the alternate screen is on, the cursor is shown, the mouse is listened to.
     fn state(&self) -> String {
         let format = "#{alternate_on} #{cursor_flag} #{mouse_any_flag}";
-        self.ok(&["display", "-p", "-t", "main", format]).trim().to_string()
+        self.ok(&["display", "-p", "-t", "main", format])
+            .trim()
+            .to_string()
     }
 
     /// Starts the debugger; the shell within leaves its process number behind.
@@ -113,14 +117,18 @@ impl Terminal {
         self.wait("the shell again", |screen| !screen.contains("Listing"));
         assert_eq!(self.state(), "0 1 0");
         self.type_line("clear");
-        self.type_line("stty -a | tr ' ;' '\\n\\n' | grep -xE -- '-?(echo|icanon|isig|opost)' | tr '\\n' ' '");
+        self.type_line(
+            "stty -a | tr ' ;' '\\n\\n' | grep -xE -- '-?(echo|icanon|isig|opost)' | tr '\\n' ' '",
+        );
         let screen = self.wait("the modes", |screen| screen.contains("isig"));
         // Each on, none with a `-` before it; the order is that of stty.
         for mode in ["echo", "icanon", "isig", "opost"] {
             assert!(!screen.contains(&format!("-{mode} ")), "{screen}");
         }
         self.type_line("clear; echo here$((1 + 1))");
-        self.wait("an echo", |screen| screen.lines().any(|line| line == "here2"));
+        self.wait("an echo", |screen| {
+            screen.lines().any(|line| line == "here2")
+        });
     }
 }
 
@@ -168,12 +176,16 @@ fn steps_and_a_signal_in_a_real_terminal() {
     terminal.wait("an answer", |screen| screen.contains("1.25"));
     terminal.keys(&["Escape"]);
     terminal.keys(&["?"]);
-    terminal.wait("the help", |screen| screen.contains("over the next instruction"));
+    terminal.wait("the help", |screen| {
+        screen.contains("over the next instruction")
+    });
     terminal.keys(&["Escape"]);
     terminal.wait("the listing", at("3›add r0, r0, r0"));
 
     terminal.ok(&["resize-window", "-t", "main", "-x", "50", "-y", "10"]);
-    terminal.wait("a kind word", |screen| screen.contains("please make it larger"));
+    terminal.wait("a kind word", |screen| {
+        screen.contains("please make it larger")
+    });
     terminal.ok(&["resize-window", "-t", "main", "-x", "120", "-y", "40"]);
     terminal.wait("three columns", |screen| {
         screen.contains("Frame") && screen.contains("Watches") && at("3›add r0, r0, r0")(screen)

@@ -32,7 +32,9 @@ pub(in crate::tui) fn ask(patience: Duration) -> Answers {
     use std::time::Instant;
 
     let mut out = std::io::stdout().lock();
-    let sent = out.write_all(QUESTIONS.as_bytes()).and_then(|()| out.flush());
+    let sent = out
+        .write_all(QUESTIONS.as_bytes())
+        .and_then(|()| out.flush());
     let mut heard = Vec::new();
     let end = Instant::now() + patience;
     while sent.is_ok() && heard.len() < MOST && !parse(&heard).complete {

@@ -56,8 +56,10 @@ impl Canvas {
             return None;
         }
         let cell = cell.unwrap_or([1, 2]).map(u32::from);
-        let target =
-            crop.fit([u32::from(room.width) * cell[0], u32::from(room.height) * cell[1]]);
+        let target = crop.fit([
+            u32::from(room.width) * cell[0],
+            u32::from(room.height) * cell[1],
+        ]);
         let cells: [u32; 2] = std::array::from_fn(|i| target[i].div_ceil(cell[i]));
         let area = Rect::new(room.x, room.y, cells[0] as u16, cells[1] as u16).intersection(room);
         Some(Self {
@@ -88,7 +90,8 @@ impl Canvas {
     /// The cell in which the middle of a pixel of the picture stands.
     pub(in crate::tui) fn cell_of(&self, pixel: [u32; 2]) -> Option<[u16; 2]> {
         let [x, y] = self.target_of(pixel)?;
-        let middle = |[first, last]: [u32; 2], i: usize| (first + (last - first) / 2) / self.cell[i];
+        let middle =
+            |[first, last]: [u32; 2], i: usize| (first + (last - first) / 2) / self.cell[i];
         let cell = [middle(x, 0) as u16, middle(y, 1) as u16];
         Some([self.area.x + cell[0], self.area.y + cell[1]])
     }
@@ -118,17 +121,15 @@ impl Canvas {
 const MOST_SAMPLES: u32 = 4;
 
 /// A part of a picture in another size.
-pub(in crate::tui) fn resample(
-    crop: Crop,
-    target: [u32; 2],
-    at: impl Fn(u32, u32) -> [u8; 3],
-) -> RgbImage {
+fn resample(crop: Crop, target: [u32; 2], at: impl Fn(u32, u32) -> [u8; 3]) -> RgbImage {
     // Middles of equal shares of what a pixel of the target covers.
     let places = |i: usize, point: u32| {
+        let count = crop.size[i].div_ceil(target[i]).clamp(1, MOST_SAMPLES);
+        let count = u64::from(count);
         let (size, target) = (u64::from(crop.size[i]), u64::from(target[i]));
-        let count = u64::from(crop.size[i].div_ceil(target[i] as u32).clamp(1, MOST_SAMPLES));
         (0..count).map(move |share| {
-            let place = (u64::from(point) * 2 * count + 2 * share + 1) * size / (2 * count * target);
+            let place =
+                (u64::from(point) * 2 * count + 2 * share + 1) * size / (2 * count * target);
             crop.at[i] + (place as u32).min(crop.size[i] - 1)
         })
     };

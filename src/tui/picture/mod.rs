@@ -12,7 +12,7 @@ mod kitty;
 mod sixel;
 
 pub(super) use ask::{Answers, ask};
-pub(super) use crop::{Canvas, Crop, resample};
+pub(super) use crop::{Canvas, Crop};
 
 use image::RgbImage;
 use ratatui::layout::Rect;

@@ -74,8 +74,7 @@ mod tests {
     fn a_flat_picture() {
         // White is the last colour, 215; a band of 6 rows is 63 + 63, one of the two left over 63 + 3.
         let image = RgbImage::from_pixel(5, 8, Rgb([255; 3]));
-        let expected =
-            "\x1bP0;1;0q\"1;1;5;8#215;2;100;100;100#215!5~$-#215!5B$-\x1b\\".to_string();
+        let expected = "\x1bP0;1;0q\"1;1;5;8#215;2;100;100;100#215!5~$-#215!5B$-\x1b\\".to_string();
         assert_eq!(encode(&image), expected);
     }
 

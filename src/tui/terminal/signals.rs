@@ -51,7 +51,8 @@ fn heard(signal: i32) {
 
 fn stop() {
     // A group of processes that no shell watches over could never be woken: the system itself does not stop such groups.
-    let orphaned = rustix::process::getsid(None).is_ok_and(|leader| leader == rustix::process::getpgrp());
+    let orphaned =
+        rustix::process::getsid(None).is_ok_and(|leader| leader == rustix::process::getpgrp());
     if orphaned {
         return;
     }

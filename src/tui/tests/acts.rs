@@ -10,7 +10,9 @@ const CONTROL: KeyModifiers = KeyModifiers::CONTROL;
 /// The line of the next instruction; `None` at the end.
 fn line(app: &App<'_>) -> Option<usize> {
     let listing = app.session.run().unwrap().listing;
-    app.session.next_instruction().map(|next| listing.line(next))
+    app.session
+        .next_instruction()
+        .map(|next| listing.line(next))
 }
 
 /// Instructions on lines 2 to 5; `m4x4` has four rows.
@@ -97,14 +99,21 @@ fn typing_reaches_the_console() {
     assert_eq!(keys(&mut app, ":quit\n"), Some(Request::Quit));
     keys(&mut app, "\x1b");
     assert_eq!(keys(&mut app, "q"), Some(Request::Quit));
-    assert_eq!(press(&mut app, KeyCode::Char('z'), CONTROL), Some(Request::Suspend));
+    assert_eq!(
+        press(&mut app, KeyCode::Char('z'), CONTROL),
+        Some(Request::Suspend)
+    );
 }
 
 #[test]
 fn lines_that_are_pasted_are_run() {
     let owned = Owned::new(VERTEX);
     let mut app = owned.app(&[]);
-    handle(&mut app, Event::Paste("next\nnext\r\nprint r".to_string()), SMALL);
+    handle(
+        &mut app,
+        Event::Paste("next\nnext\r\nprint r".to_string()),
+        SMALL,
+    );
     assert_eq!(line(&app), Some(4));
     assert_eq!(app.model.prompt.text(), "print r");
 }
@@ -146,26 +155,26 @@ fn the_pixel_moves() {
     keys(&mut app, "n");
     // From the listing with a key held, from the frame without.
     press(&mut app, KeyCode::Right, SHIFT);
-    assert_eq!(app.recorded_pixel(), Some([2, 4]));
+    assert_eq!(recorded(&app), Some([2, 4]));
     assert_eq!(line(&app), Some(3), "at the same instruction as before");
     press(&mut app, KeyCode::Down, NONE);
-    assert_eq!(app.recorded_pixel(), Some([2, 4]));
+    assert_eq!(recorded(&app), Some([2, 4]));
     keys(&mut app, "2");
     press(&mut app, KeyCode::Up, NONE);
-    assert_eq!(app.recorded_pixel(), Some([2, 3]));
+    assert_eq!(recorded(&app), Some([2, 3]));
     // At the edge of the frame it stays.
     press(&mut app, KeyCode::Left, CONTROL);
-    assert_eq!(app.recorded_pixel(), Some([0, 3]));
+    assert_eq!(recorded(&app), Some([0, 3]));
     press(&mut app, KeyCode::Left, NONE);
-    assert_eq!(app.recorded_pixel(), Some([0, 3]));
+    assert_eq!(recorded(&app), Some([0, 3]));
     // The quad ends at 0.5 of clip space: pixel 6 of 8 is the first that nothing covers.
     press(&mut app, KeyCode::Right, CONTROL);
-    assert_eq!(app.recorded_pixel(), Some([0, 3]));
+    assert_eq!(recorded(&app), Some([0, 3]));
     assert_eq!(app.frame.as_ref().unwrap().mark, [7, 3]);
     assert!(app.frame.as_ref().unwrap().refusal.is_some());
     press(&mut app, KeyCode::Left, NONE);
     press(&mut app, KeyCode::Left, NONE);
-    assert_eq!(app.recorded_pixel(), Some([5, 3]));
+    assert_eq!(recorded(&app), Some([5, 3]));
     assert_eq!(app.frame.as_ref().unwrap().refusal, None);
 }
 
@@ -177,11 +186,11 @@ fn the_mouse_chooses_a_pixel() {
     let (x, y) = find(&app, "┼").unwrap();
     // Half blocks make 6 rows of pixels 1 each high in a pane of at least 7 rows: a cell further right is not further than a pixel.
     click(&mut app, x + 4, y);
-    let [column, _] = app.recorded_pixel().unwrap();
+    let [column, _] = recorded(&app).unwrap();
     assert!(column > 1, "{column}");
     assert_eq!(app.model.focus, Pane::Frame);
     mouse(&mut app, MouseEventKind::Drag(MouseButton::Left), x, y);
-    assert_eq!(app.recorded_pixel().map(|[column, _]| column), Some(1));
+    assert_eq!(recorded(&app).map(|[column, _]| column), Some(1));
     mouse(&mut app, MouseEventKind::ScrollUp, x, y);
     assert_eq!(app.model.frame_zoom, 2);
     keys(&mut app, "-");

@@ -14,7 +14,7 @@ use ratatui::crossterm::event::{
 use ratatui::layout::Rect;
 use std::collections::BTreeMap;
 use texcrd::debug::{
-    Console, Given, Listing, ListingSubject, PixelSubject, Session, Subject, Which,
+    Console, Effect, Given, Listing, ListingSubject, PixelSubject, Session, Subject, Text, Which,
 };
 use texcrd::diagnostic::SourceMap;
 use texcrd::kernel::{self, Kernel};
@@ -54,7 +54,8 @@ impl Owned {
             sources: &self.sources,
         };
         let subject = Subject::Listing(ListingSubject { listing, given });
-        App::new(Session::new(subject), Console::new())
+        let perform = |_: &mut Session<'_>, _| Err("not in these tests".to_string());
+        App::new(Session::new(subject), Console::new(), Box::new(perform))
     }
 }
 
@@ -120,8 +121,25 @@ fn rendering(scene: &Scene) -> Rendering<'_> {
 }
 
 fn pixel_app<'a>(rendering: &'a Rendering<'a>, pixel: [u32; 2]) -> App<'a> {
-    let subject = PixelSubject::new(rendering, pixel, &Which::default()).unwrap();
-    App::new(Session::new(Subject::Pixel(subject)), Console::new())
+    let subject = |pixel| PixelSubject::new(rendering, pixel, &Which::default());
+    let session = Session::new(Subject::Pixel(subject(pixel).unwrap()));
+    let perform = move |session: &mut Session<'a>, effect| {
+        let Effect::Pixel(pixel) = effect else {
+            return Err("not in these tests".to_string());
+        };
+        let subject = subject(pixel).map_err(|why| why.to_string())?;
+        session.replace(Subject::Pixel(subject));
+        Ok(Text::default())
+    };
+    App::new(session, Console::new(), Box::new(perform))
+}
+
+/// The pixel that is recorded.
+fn recorded(app: &App<'_>) -> Option<[u32; 2]> {
+    match app.session.subject() {
+        Subject::Pixel(subject) => Some(subject.history().pixel),
+        _ => None,
+    }
 }
 
 const SMALL: Rect = Rect::new(0, 0, 80, 24);

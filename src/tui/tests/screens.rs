@@ -16,7 +16,11 @@ fn check(name: &str, buffer: &Buffer) {
         let _ = fs::remove_file(actual);
     } else {
         fs::write(&actual, &shown).unwrap();
-        panic!("{} differs from {}:\n{shown}", actual.display(), file.display());
+        panic!(
+            "{} differs from {}:\n{shown}",
+            actual.display(),
+            file.display()
+        );
     }
 }
 
@@ -34,7 +38,7 @@ fn the_start() {
 fn after_steps() {
     let owned = Owned::new(LISTING);
     let mut app = owned.app(&VALUES);
-    keys(&mut app, ":break 9\nwatch r0.rgb * 2\nprint r1\n\x1bccb1");
+    keys(&mut app, ":break 9\ndisplay r0.rgb * 2\nprint r1\n\x1bccb1");
     check("steps_80x24", &drawn(&app, SMALL, Colours::True));
     check("steps_120x40", &drawn(&app, LARGE, Colours::True));
 }
@@ -52,7 +56,9 @@ fn without_colours_everything_is_said_by_characters() {
     assert_eq!(text(&plain), text(&deep));
     let colours = |buffer: &Buffer| {
         let cells = buffer.content().iter();
-        cells.filter(|c| c.fg != Color::Reset || c.bg != Color::Reset).count()
+        cells
+            .filter(|c| c.fg != Color::Reset || c.bg != Color::Reset)
+            .count()
     };
     assert_eq!(colours(&plain), 0);
     assert!(colours(&deep) > 0);
@@ -67,7 +73,9 @@ fn without_colours_everything_is_said_by_characters() {
 
 #[test]
 fn nan_is_told() {
-    let owned = Owned::new("vs.1.1\nrcp r0, v0.x\nsub r1, r0, r0\nmul r2, r0, r0\nsub r3, r2, r2\nmov oPos, r3\n");
+    let owned = Owned::new(
+        "vs.1.1\nrcp r0, v0.x\nsub r1, r0, r0\nmul r2, r0, r0\nsub r3, r2, r2\nmov oPos, r3\n",
+    );
     let mut app = owned.app(&[("v0", &[0.0])]);
     keys(&mut app, ":until nan\n");
     check("nan_80x24", &drawn(&app, SMALL, Colours::True));
@@ -79,7 +87,10 @@ fn the_help() {
     let mut app = owned.app(&VALUES);
     keys(&mut app, "?");
     check("help_80x24", &drawn(&app, SMALL, Colours::True));
-    check("help_120x80", &drawn(&app, Rect::new(0, 0, 120, 80), Colours::True));
+    check(
+        "help_120x80",
+        &drawn(&app, Rect::new(0, 0, 120, 80), Colours::True),
+    );
     press(&mut app, KeyCode::End, KeyModifiers::NONE);
     let end = text(&drawn(&app, SMALL, Colours::True));
     assert!(end.contains("wheel"), "{end}");
@@ -91,7 +102,10 @@ fn the_help() {
 fn there_is_too_little_room() {
     let owned = Owned::new(LISTING);
     let app = owned.app(&VALUES);
-    check("small_40x10", &drawn(&app, Rect::new(0, 0, 40, 10), Colours::True));
+    check(
+        "small_40x10",
+        &drawn(&app, Rect::new(0, 0, 40, 10), Colours::True),
+    );
     // Whatever the size, something is drawn and nothing panics.
     let scene = scene();
     let rendering = rendering(&scene);

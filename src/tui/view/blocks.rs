@@ -55,7 +55,11 @@ pub(super) fn draw(
         let cell = &mut buf[(x, y)];
         cell.set_symbol(sign);
         if let Some(ground) = theme.colour(upper) {
-            let contrast = if brightness(upper) < 128 { [255; 3] } else { [0; 3] };
+            let contrast = if brightness(upper) < 128 {
+                [255; 3]
+            } else {
+                [0; 3]
+            };
             let style = Style::default().bg(ground);
             cell.set_style(theme.colour(contrast).map_or(style, |c| style.fg(c)));
         }
@@ -74,7 +78,10 @@ const MARK: u32 = 9;
 fn outline(image: &mut RgbImage, covered: [[u32; 2]; 2]) {
     let [x, y] = covered.map(|[first, last]| {
         let missing = MARK.saturating_sub(last - first + 1).div_ceil(2) + 1;
-        (i64::from(first) - i64::from(missing), i64::from(last) + i64::from(missing))
+        (
+            i64::from(first) - i64::from(missing),
+            i64::from(last) + i64::from(missing),
+        )
     });
     for (grown, colour) in [(0, Rgb([255; 3])), (1, Rgb([0; 3]))] {
         let ([left, right], [top, bottom]) =

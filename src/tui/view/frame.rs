@@ -68,7 +68,11 @@ pub(super) fn draw(
     pictures: &mut Vec<Placed>,
 ) -> String {
     let Some(frame) = screen.frame else {
-        let lines = ["No frame: this is not a pixel of a", "scene. `texcrd debug SCENE --pixel X,Y`", "shows one."];
+        let lines = [
+            "No frame: this is not a pixel of a",
+            "scene. `texcrd debug SCENE --pixel X,Y`",
+            "shows one.",
+        ];
         for (row, line) in lines.into_iter().enumerate() {
             put(buf, area, row, Line::from(line));
         }
@@ -93,7 +97,11 @@ pub(super) fn draw(
             Span::raw(format!("#{red:02x}{green:02x}{blue:02x} ")),
             Span::styled("  ", colours),
         ]),
-        Line::from(if zoom > 1 { format!("zoom {zoom}x") } else { String::new() }),
+        Line::from(if zoom > 1 {
+            format!("zoom {zoom}x")
+        } else {
+            String::new()
+        }),
     ];
     if let Some(refusal) = &frame.refusal {
         let room = divide(area).1;

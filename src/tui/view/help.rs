@@ -16,7 +16,10 @@ const MARKS: [(&str, &str); 7] = [
     ("›", "the cursor line"),
     ("-", "a component that nothing has written"),
     ("┼ x", "the pixel in the frame, the texels in the texture"),
-    ("t0in", "ps.1.0 to 1.3: the coordinates that t0 is sampled at"),
+    (
+        "t0in",
+        "ps.1.0 to 1.3: the coordinates that t0 is sampled at",
+    ),
 ];
 
 /// What the mouse does.
@@ -37,14 +40,23 @@ pub(in crate::tui) fn lines() -> Vec<(String, String)> {
             lines.push((String::new(), String::new()));
         }
         lines.push((name.to_string(), String::new()));
-        lines.extend(rows.into_iter().map(|(keys, says)| (keys, says.to_string())));
+        lines.extend(
+            rows.into_iter()
+                .map(|(keys, says)| (keys, says.to_string())),
+        );
     };
     let owned = |rows: &[(&str, &'static str)]| {
         let rows = rows.iter().map(|(key, says)| (key.to_string(), *says));
         rows.collect::<Vec<_>>()
     };
-    section("In the panes (a letter without a meaning begins a command)", entries(PANES));
-    section("In the command line (`help` tells of the commands)", entries(PROMPT));
+    section(
+        "In the panes (a letter without a meaning begins a command)",
+        entries(PANES),
+    );
+    section(
+        "In the command line (`help` tells of the commands)",
+        entries(PROMPT),
+    );
     section("Marks", owned(&MARKS));
     section("Mouse", owned(&MOUSE));
     lines
@@ -61,7 +73,13 @@ pub(super) fn draw(buf: &mut Buffer, area: Rect, theme: Theme, first: usize) {
         " Help: Esc closes"
     };
     buf.set_style(Rect { height: 1, ..area }, theme.cursor());
-    buf.set_stringn(area.x, area.y, hint, usize::from(area.width), theme.cursor());
+    buf.set_stringn(
+        area.x,
+        area.y,
+        hint,
+        usize::from(area.width),
+        theme.cursor(),
+    );
     let body = Rect {
         y: area.y + 1,
         height: area.height.saturating_sub(1),

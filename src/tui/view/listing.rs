@@ -23,7 +23,9 @@ impl<'a> Page<'a> {
     /// The text with the next instruction; at the end of a run the one of the last.
     pub(in crate::tui) fn of(session: &Session<'a>) -> Option<Self> {
         let listing = session.run()?.listing;
-        let next = session.next_instruction().and_then(|i| listing.instruction(i));
+        let next = session
+            .next_instruction()
+            .and_then(|i| listing.instruction(i));
         let here = next.or_else(|| listing.program.instructions().last());
         let start = here.map_or(listing.program.span.start, |i| i.span.start);
         let file = listing.sources.file_of(start)?;
@@ -69,16 +71,24 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Str
     let done_line = done.and_then(|done| page.line_of(done));
     let kind = run.listing.kind();
     let breakpoint = |line: usize| {
-        let mut here = screen.console.stops.breakpoints.iter().filter(|breakpoint| {
-            breakpoint.kind == kind && page.line_of(breakpoint.instruction) == Some(line)
-        });
+        let mut here = screen
+            .console
+            .stops
+            .breakpoints
+            .iter()
+            .filter(|breakpoint| {
+                breakpoint.kind == kind && page.line_of(breakpoint.instruction) == Some(line)
+            });
         let first = here.next()?;
         let enabled = first.action.enabled || here.any(|other| other.action.enabled);
         Some(if enabled { "●" } else { "○" })
     };
     let digits = page.lines.to_string().len().max(3);
     let first = top(usize::from(area.height), page.lines, model.cursor);
-    for (row, line) in (first..=page.lines).take(usize::from(area.height)).enumerate() {
+    for (row, line) in (first..=page.lines)
+        .take(usize::from(area.height))
+        .enumerate()
+    {
         let text = clean(&String::from_utf8_lossy(page.file.line(line)));
         let (mark, meaning) = if next_line == Some(line) {
             ("->", Style::Marked)

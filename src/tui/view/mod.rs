@@ -21,13 +21,12 @@ pub(super) use registers::rows as register_rows;
 use super::layout::{Layout, Pane, SMALLEST, body};
 use super::model::Model;
 use super::picture::Placed;
-use super::theme::Theme;
+use super::theme::{Colours, Theme};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use std::ops::Range;
-use texcrd::debug::{Console, Session};
+use texcrd::debug::{Console, Session, Style};
 
 /// Everything that is shown.
 #[derive(Clone, Copy)]
@@ -105,8 +104,16 @@ impl Screen<'_, '_> {
         let left = name.chars().count() + 2;
         let right = clipped(right, usize::from(area.width).saturating_sub(left + 3));
         if !right.is_empty() {
-            let x = area.right().saturating_sub(right.chars().count() as u16 + 3);
-            buf.set_stringn(x, area.y, format!(" {right} "), usize::from(area.width), Style::default());
+            let x = area
+                .right()
+                .saturating_sub(right.chars().count() as u16 + 3);
+            buf.set_stringn(
+                x,
+                area.y,
+                format!(" {right} "),
+                usize::from(area.width),
+                ratatui::style::Style::default(),
+            );
         }
     }
 
@@ -115,7 +122,9 @@ impl Screen<'_, '_> {
         let shown = layout.shared().map(|(pane, _)| pane);
         self.rule(buf, area, shown.is_some_and(|pane| self.has_focus(pane)));
         for (pane, columns, text) in tabs(layout) {
-            let style = self.theme.heading(shown == Some(pane) && self.has_focus(pane));
+            let style = self
+                .theme
+                .heading(shown == Some(pane) && self.has_focus(pane));
             buf.set_stringn(columns.start, area.y, text, columns.len(), style);
         }
     }
@@ -154,12 +163,17 @@ pub(super) fn tabs(layout: &Layout) -> Vec<(Pane, Range<u16>, String)> {
 fn too_small(buf: &mut Buffer, area: Rect) {
     let [width, height] = SMALLEST;
     let lines = [
-        format!("This terminal has {} columns and {} rows.", area.width, area.height),
+        format!(
+            "This terminal has {} columns and {} rows.",
+            area.width, area.height
+        ),
         format!("The debugger needs {width} and {height}: please make it larger."),
         "q quits; `texcrd debug --plain` needs no room.".to_string(),
     ];
     // Words go on in the next row: there may be very few columns.
-    let wrapped = lines.iter().flat_map(|line| output::words(line, usize::from(area.width)));
+    let wrapped = lines
+        .iter()
+        .flat_map(|line| output::words(line, usize::from(area.width)));
     for (row, line) in wrapped.enumerate().take(usize::from(area.height)) {
         put(buf, area, row, Line::from(line));
     }
@@ -176,7 +190,13 @@ fn put(buf: &mut Buffer, area: Rect, row: usize, line: Line<'_>) {
 fn line<'t>(line: &'t texcrd::debug::Line, theme: Theme) -> Line<'t> {
     let pieces = line.pieces.iter();
     pieces
-        .map(|piece| Span::styled(piece.text.as_str(), theme.style(&piece.style)))
+        .map(|piece| match piece.style {
+            // A field of its colour where there are colours.
+            Style::Swatch(_) if theme.colours != Colours::None => {
+                Span::styled("  ", theme.style(&piece.style))
+            }
+            _ => Span::styled(piece.text.as_str(), theme.style(&piece.style)),
+        })
         .collect()
 }
 

@@ -31,7 +31,10 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Opt
     spans.push(Span::raw(visible));
     if empty {
         let dim = theme.style(&texcrd::debug::Style::Dim);
-        spans.push(Span::styled("  Enter repeats, Tab completes, Esc: back to the panes", dim));
+        spans.push(Span::styled(
+            "  Enter repeats, Tab completes, Esc: back to the panes",
+            dim,
+        ));
     }
     put(buf, area, 0, Line::from(spans));
     candidates(screen, buf, area);

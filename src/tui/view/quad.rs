@@ -32,7 +32,10 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Str
         Target::Constant(index) => format!("c{index}"),
     };
     if !matches!(run.kind, RunKind::Pixel { .. }) {
-        let lines = ["Only the pixels of a scene run in quads;", "this invocation runs alone."];
+        let lines = [
+            "Only the pixels of a scene run in quads;",
+            "this invocation runs alone.",
+        ];
         for (row, line) in lines.into_iter().enumerate() {
             put(buf, area, row, Line::from(line));
         }
@@ -76,7 +79,12 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Str
     .enumerate()
     {
         let mut spans = vec![Span::raw(format!("{label:<5}"))];
-        spans.extend(super::registers::numbers(value, written, WriteMask::NONE, screen));
+        spans.extend(super::registers::numbers(
+            value,
+            written,
+            WriteMask::NONE,
+            screen,
+        ));
         put(buf, area, line + 5, Line::from(spans));
     }
     name

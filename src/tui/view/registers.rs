@@ -155,7 +155,10 @@ pub(super) fn register(
     )];
     spans.extend(numbers(value, written, changed, screen));
     if theme.colour([0; 3]).is_some() && !written.is_empty() {
-        spans.push(Span::styled("  ", theme.style(&Style::Swatch(colour(value)))));
+        spans.push(Span::styled(
+            "  ",
+            theme.style(&Style::Swatch(colour(value))),
+        ));
     }
     Line::from(spans)
 }
@@ -208,9 +211,8 @@ fn remarks(session: &Session<'_>) -> String {
         (all.clamped, "clamp"),
     ];
     let masks = masks.into_iter().filter(|(mask, _)| !mask.is_empty());
-    let components = |mask: WriteMask| -> String {
-        mask.components().map(|c| letters[c]).collect()
-    };
+    let components =
+        |mask: WriteMask| -> String { mask.components().map(|c| letters[c]).collect() };
     let mut words: Vec<String> = masks
         .map(|(mask, name)| format!("{name} {}", components(mask)))
         .collect();
@@ -219,6 +221,11 @@ fn remarks(session: &Session<'_>) -> String {
         (all.uninitialised, "uninit"),
         (session.registers().killed()[lane], "killed"),
     ];
-    words.extend(plain.iter().filter(|(is, _)| *is).map(|(_, name)| name.to_string()));
+    words.extend(
+        plain
+            .iter()
+            .filter(|(is, _)| *is)
+            .map(|(_, name)| name.to_string()),
+    );
     words.join(", ")
 }

@@ -57,7 +57,10 @@ pub(super) fn draw(
     let stages = &run.environment.stages;
     let bound = stages.get(sample.stage).and_then(|s| Some((s.texture?, s)));
     let Some((texture, bound)) = bound else {
-        let lines = [format!("{stage}: no texture is bound,"), "a sample is opaque black.".to_string()];
+        let lines = [
+            format!("{stage}: no texture is bound,"),
+            "a sample is opaque black.".to_string(),
+        ];
         for (row, line) in lines.into_iter().enumerate() {
             put(buf, area, row, Line::from(line));
         }
@@ -81,12 +84,18 @@ pub(super) fn draw(
 /// The level that has the largest share, the face and slice of its first texel, and the texels of it that were touched.
 fn shown(found: &Footprint) -> (u32, usize, u32, Vec<[u32; 2]>) {
     let heavier = |a: &&(u32, f32), b: &&(u32, f32)| a.1.total_cmp(&b.1);
-    let level = found.levels.iter().max_by(heavier).map_or(0, |(level, _)| *level);
+    let level = found
+        .levels
+        .iter()
+        .max_by(heavier)
+        .map_or(0, |(level, _)| *level);
     let taps = || found.taps.iter().filter(|tap| tap.level == level);
     let first = taps().find_map(|tap| Some((tap.face, tap.texel?[2])));
     let (face, slice) = first.unwrap_or((found.face, 0));
     let same = taps().filter(|tap| tap.face == face);
-    let texels = same.filter_map(|tap| tap.texel).filter(|texel| texel[2] == slice);
+    let texels = same
+        .filter_map(|tap| tap.texel)
+        .filter(|texel| texel[2] == slice);
     let texels = texels.map(|[x, y, _]| [x, y]).collect();
     (level, face, slice, texels)
 }
@@ -123,7 +132,7 @@ fn lines(
     let (level, face, ..) = shown(found);
     let [width, height, depth] = texture.size();
     let (size, coordinates) = match texture.kind() {
-        TextureKind::D2 => (format!("{width}x{height}"), vec![u, v]),
+        TextureKind::Texture2D => (format!("{width}x{height}"), vec![u, v]),
         TextureKind::Cube => (format!("cube {width}, face {face}"), vec![u, v, w]),
         TextureKind::Volume => (format!("{width}x{height}x{depth}"), vec![u, v, w]),
     };
@@ -136,12 +145,18 @@ fn lines(
     let mut lines = vec![
         Line::from(format!("stage {}  {size}", sample.stage)),
         Line::from(format!("at {}", coordinates.join(" "))),
-        Line::from(format!("lod {}  {}", short(sample.level[lane]), levels.join(" "))),
+        Line::from(format!(
+            "lod {}  {}",
+            short(sample.level[lane]),
+            levels.join(" ")
+        )),
     ];
     let mut taps: Vec<_> = found.taps.iter().collect();
     taps.sort_by(|a, b| b.weight.total_cmp(&a.weight));
     for tap in taps {
-        let value = tap.texel.map(|[x, y, z]| (texture.texel(tap.face, tap.level, x, y, z), [x, y]));
+        let value = tap
+            .texel
+            .map(|[x, y, z]| (texture.texel(tap.face, tap.level, x, y, z), [x, y]));
         let (place, value) = match value {
             Some((value, [x, y])) => (format!("{x},{y}"), value.unwrap_or_default()),
             None => ("border".to_string(), [0.0; 4]),
@@ -157,7 +172,10 @@ fn lines(
             Span::raw(format!("{:>4.0}% ", tap.weight * 100.0)),
         ];
         if tap.texel.is_some() {
-            spans.push(Span::styled("  ", theme.style(&Style::Swatch(colour(value)))));
+            spans.push(Span::styled(
+                "  ",
+                theme.style(&Style::Swatch(colour(value))),
+            ));
         }
         for number in value {
             spans.push(Span::raw(format!(" {}", short(number))));
