@@ -96,7 +96,7 @@ pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
         record(shader, &environment, inputs)
     });
     let outputs = match &vertex {
-        Some(run) => vertex_outputs(&run.shader.kernel, &run.machine, 0),
+        Some(run) => vertex_outputs(&run.shader.kernel, |slot| run.machine.lane(slot, 0)),
         None => without_vertex_shader(invocation),
     };
     let pixel = case.pixel.as_ref().map(|shader| {

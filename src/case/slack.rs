@@ -208,7 +208,7 @@ impl Outputs {
     }
 
     fn of(kernel: &Kernel, probe: &Probe) -> Self {
-        let vertex = crate::raster::vertex_outputs(kernel, &probe.machine, 0);
+        let vertex = crate::raster::vertex_outputs(kernel, |slot| probe.machine.lane(slot, 0));
         let errors = |slot: Option<Slot>| slot.map_or([0.0; 4], |slot| probe.errors(slot)[0]);
         let fog = errors(Some(Slot::FOG))[kernel.fog_component & 3];
         Self::new(&vertex, errors, errors(Some(Slot::POSITION)), fog)

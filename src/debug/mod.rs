@@ -11,15 +11,19 @@
 //! What one asks is an [`Expression`] over the registers of a moment.
 //!
 //! Files: `moment` (what happens), `run` (a recorded invocation and its registers), `record` (how it is recorded), `subject`
-//! (what can be debugged), `session` (where one is, and how one moves), `expression` (the language of `print`, of conditions and
-//! of log messages), `why` (what made a value).
+//! (what can be debugged), `pixel` (a pixel or a vertex of a scene), `session` (where one is, and how one moves), `expression` (the
+//! language of `print`, of conditions and of log messages), `stops` (breakpoints, and running until something happens), `why`
+//! (what made a value).
 
 mod expression;
 mod given;
 mod moment;
+#[cfg(feature = "scene")]
+mod pixel;
 mod record;
 mod run;
 mod session;
+mod stops;
 mod subject;
 #[cfg(test)]
 mod tests;
@@ -29,9 +33,17 @@ pub use expression::{
     Expression, ExpressionError, Format, LogMessage, Scope, Value, function_names, number_text,
 };
 pub use given::{Given, GivenError};
-pub use moment::{Change, Event, Flags, InputSource, Moment, Quad, Read, Sample, Target};
+pub use moment::{
+    Change, Event, Flags, InputSource, MergeStage, Moment, Quad, Read, Sample, Target,
+};
+#[cfg(feature = "scene")]
+pub use pixel::{PixelError, PixelSubject, VertexSubject, Which};
 pub use record::{Edit, Input, Invocation, record};
 pub use run::{Listing, Registers, Run, RunKind};
 pub use session::{Direction, Position, Session};
+pub use stops::{
+    Action, Breakpoint, HitCount, NotUnderstood, Occurrence, Reason, Stops, Travel, Until,
+    Watchpoint,
+};
 pub use subject::{ListingSubject, Subject};
 pub use why::{Cause, Slice, why};

@@ -2,6 +2,9 @@
 
 use crate::isa::WriteMask;
 use crate::kernel::{Operand, Slot};
+use crate::raster::{
+    AlphaTested, Blended, ColorWritten, DepthTested, Fogged, StencilTested, Stored,
+};
 
 /// A register of the four pixels of a quad, pixel by pixel: (x, y), (x+1, y), (x, y+1), (x+1, y+1). A vertex or a listing run by
 /// hand has the same values four times.
@@ -42,6 +45,39 @@ pub enum Event {
     Nothing,
     /// A person has set a value.
     Set,
+    /// The rasterizer takes an output of a vertex into 0 to 1; only where that changes it.
+    Taken,
+    /// A stage of the output merger, behind the last instruction of a pixel shader.
+    Merge(Box<MergeStage>),
+}
+
+/// What the output merger does with a pixel, stage by stage in this order. Stages that the render states switch off are absent,
+/// and so is everything behind a test that is not passed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MergeStage {
+    /// `texkill` took the pixel out.
+    Killed,
+    /// `r0` is taken into 0 to 1; only where that changes it.
+    Clamp,
+    /// The alpha test.
+    AlphaTest(AlphaTested),
+    /// The stencil test.
+    Stencil(StencilTested),
+    /// The depth test.
+    Depth(DepthTested),
+    /// Fog.
+    Fog(Fogged),
+    /// Blending with what the target holds.
+    Blend(Blended),
+    /// The target takes the colour.
+    Write {
+        /// The colour, and which channels of it are written.
+        write: ColorWritten,
+        /// What the target held before.
+        before: Stored,
+        /// What it holds now.
+        after: Stored,
+    },
 }
 
 /// Where an input comes from.

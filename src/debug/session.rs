@@ -52,6 +52,11 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// Goes on with another subject, from its start. What was set by hand is forgotten.
+    pub fn replace(&mut self, subject: Subject<'a>) {
+        *self = Self::new(subject);
+    }
+
     /// What is debugged.
     pub fn subject(&self) -> &Subject<'a> {
         &self.subject

@@ -1,6 +1,8 @@
 //! What can be debugged.
 
 use super::given::Given;
+#[cfg(feature = "scene")]
+use super::pixel::{PixelSubject, VertexSubject};
 use super::record::{Edit, Invocation, record};
 use super::run::{Listing, Run, RunKind};
 use super::session::Position;
@@ -11,6 +13,12 @@ use crate::exec::{Environment, bind_constants};
 pub enum Subject<'a> {
     /// A listing with values set by hand.
     Listing(ListingSubject<'a>),
+    /// A pixel of a scene.
+    #[cfg(feature = "scene")]
+    Pixel(PixelSubject<'a>),
+    /// A vertex of a scene.
+    #[cfg(feature = "scene")]
+    Vertex(VertexSubject<'a>),
 }
 
 /// A listing with values set by hand. No texture is bound: a sample is opaque black, as Direct3D 8 had it.
@@ -27,6 +35,10 @@ impl<'a> Subject<'a> {
     pub fn record(&self, edits: &[Edit]) -> Vec<Run<'a>> {
         match self {
             Self::Listing(subject) => vec![subject.record(edits)],
+            #[cfg(feature = "scene")]
+            Self::Pixel(subject) => subject.record(edits),
+            #[cfg(feature = "scene")]
+            Self::Vertex(subject) => subject.record(edits),
         }
     }
 

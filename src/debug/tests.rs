@@ -1,3 +1,7 @@
+#[cfg(feature = "scene")]
+mod pixel;
+mod stops;
+
 use super::*;
 use crate::diagnostic::SourceMap;
 use crate::exec::{Machine, Trace};

@@ -60,6 +60,8 @@ pub fn why(run: &Run<'_>, at: usize, target: Target, mask: WriteMask) -> Slice {
                     .inputs
                     .extend(change.target.slot().map(|slot| (slot, hit)));
             }
+            // The clamp passes on what was there.
+            Event::Taken | Event::Merge(_) => needed.add(change.target, hit),
             Event::Nothing | Event::Set => {}
         }
     }
@@ -149,7 +151,7 @@ fn deciding(op: Op, reads: &[Read], component: usize, lane: usize) -> [bool; 3] 
             .get(i)
             .map_or(0.0, |read| read.values[lane & 3][component])
     };
-    let [a, b, c] = [value(0), value(1), value(2)];
+    let [a, b] = [value(0), value(1)];
     let factors = match (a == 0.0, b == 0.0) {
         (true, false) => [true, false],
         (false, true) => [false, true],

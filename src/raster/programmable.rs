@@ -37,7 +37,7 @@ pub fn shade_vertices(
             }
             machine.run(kernel, environment);
             (0..live)
-                .map(|lane| vertex_outputs(kernel, machine, lane))
+                .map(|lane| vertex_outputs(kernel, |slot| machine.lane(slot, lane)))
                 .collect()
         })
     };
@@ -52,13 +52,10 @@ pub fn shade_vertices(
     vertices
 }
 
-/// What one lane of a vertex shader leaves to the rasterizer.
-pub fn vertex_outputs<const N: usize>(
-    kernel: &Kernel,
-    machine: &Machine<N>,
-    lane: usize,
-) -> Vertex {
-    let of = |slot: Slot| Vec4::from(machine.lane(slot, lane));
+/// What a vertex shader leaves to the rasterizer, its registers being what `of` gives.
+pub fn vertex_outputs(kernel: &Kernel, of: impl Fn(Slot) -> [f32; 4]) -> Vertex {
+    let component = |slot: Slot, component: usize| of(slot)[component & 3];
+    let of = |slot: Slot| Vec4::from(of(slot));
     let color = |i: usize| Slot::color_output(i).map_or(Vec4::ZERO, of);
     let mut texcoords = [Vec4::ZERO; SETS];
     for (i, set) in texcoords.iter_mut().enumerate() {
@@ -70,9 +67,8 @@ pub fn vertex_outputs<const N: usize>(
         diffuse: color(0),
         specular: color(1),
         texcoords,
-        fog: machine.lane(Slot::FOG, lane)[kernel.fog_component & 3],
-        point_size: sized
-            .then(|| machine.lane(Slot::POINT_SIZE, lane)[kernel.point_size_component & 3]),
+        fog: component(Slot::FOG, kernel.fog_component),
+        point_size: sized.then(|| component(Slot::POINT_SIZE, kernel.point_size_component)),
     }
 }
 

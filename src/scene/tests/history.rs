@@ -188,7 +188,7 @@ stages.0 = { texture = "board", filter = "linear", mip = "linear" }
             machine.load(Slot::input(register).unwrap(), value);
         }
         machine.run(&draw.vertex.kernel, &draw.vertex_environment());
-        let vertex = vertex_outputs(&draw.vertex.kernel, &machine, 0);
+        let vertex = vertex_outputs(&draw.vertex.kernel, |slot| machine.lane(slot, 0));
         assert_eq!(vertex, shaded.vertices()[index]);
     }
     let program = shaded.program(None);
