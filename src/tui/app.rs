@@ -9,7 +9,8 @@ use super::theme::Theme;
 use super::view::{self, Frame, Page, Screen};
 use ratatui::crossterm::event::{Event, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
-use texcrd::debug::{Console, Effect, Position, Run, Session, Subject, Text};
+use texcrd::debug::{Console, Effect, PixelSubject, Position, Run, Session, Subject, Text, Which};
+use texcrd::scene::Rendering;
 
 /// Lines that one turn of the wheel moves.
 const WHEEL: isize = 3;
@@ -42,30 +43,30 @@ pub(super) struct App<'a> {
     pub(super) frame: Option<Frame>,
     /// Whether the marked pixel is to be recorded.
     moved: bool,
+    /// The pixel that was recorded last.
+    recorded: Option<[u32; 2]>,
     /// Does what the console leaves to its front.
     perform: Perform<'a>,
 }
 
-/// Does for a session what a console leaves to its front; gives what there is to say of it, or why it could not be done.
-pub(crate) type Perform<'a> = Box<dyn FnMut(&mut Session<'a>, Effect) -> Result<Text, String> + 'a>;
+/// Does what a console leaves to its front; gives what there is to say of it, or why it could not be done.
+pub(crate) type Perform<'a> = Box<dyn FnMut(&Effect) -> Result<Text, String> + 'a>;
 
 impl<'a> App<'a> {
     /// A front for a session.
     pub(super) fn new(session: Session<'a>, console: Console, perform: Perform<'a>) -> Self {
-        let frame = match session.subject() {
-            Subject::Pixel(subject) => Some(Frame {
-                image: subject.rendering().picture().to_image(),
-                mark: subject.history().pixel,
-                refusal: None,
-            }),
-            _ => None,
-        };
+        let frame = rendering(&session).map(|rendering| Frame {
+            image: rendering.picture().to_image(),
+            mark: rendering.size().map(|edge| edge / 2),
+            refusal: None,
+        });
         let mut app = Self {
             model: Model::new(frame.is_some()),
             session,
             console,
             frame,
             moved: false,
+            recorded: None,
             perform,
         };
         app.follow();
@@ -82,6 +83,10 @@ impl<'a> App<'a> {
             theme,
             cell,
         }
+    }
+
+    fn layout(&self, surface: Surface) -> Option<Layout> {
+        Layout::new(surface.area, self.model.view, self.frame.is_some())
     }
 
     /// Something happened.
@@ -119,7 +124,7 @@ impl<'a> App<'a> {
         if let Some(first) = self.model.help {
             return self.help(action, first, surface);
         }
-        let layout = Layout::new(surface.area, self.model.view);
+        let layout = self.layout(surface);
         match action {
             Action::Quit => return Some(Request::Quit),
             Action::Redraw => return Some(Request::Redraw),
@@ -165,10 +170,17 @@ impl<'a> App<'a> {
             Action::Enter => return self.enter().then_some(Request::Quit),
             Action::Complete => {
                 let (console, session) = (&self.console, &self.session);
-                let candidates = |line: &str| console.complete(session, line);
+                let candidates = |line: &str| {
+                    let start = line.get(..Console::word_start(line)).unwrap_or(line);
+                    let words = console.complete(session, line).into_iter();
+                    words.map(|word| format!("{start}{word}")).collect()
+                };
                 self.model.prompt.complete(candidates);
             }
-            Action::Leave => self.model.typing = false,
+            Action::Leave => {
+                self.model.typing = false;
+                self.model.prompt.edit(Edit::Clear);
+            }
             Action::Help => self.model.help = Some(0),
         }
         None
@@ -209,7 +221,7 @@ impl<'a> App<'a> {
         let reply = self.console.execute(&mut self.session, command);
         self.model.say(reply.text);
         if let Some(effect) = reply.effect {
-            match (self.perform)(&mut self.session, effect) {
+            match (self.perform)(&effect) {
                 Ok(text) => self.model.say(text),
                 Err(why) => self.model.complain(why),
             }
@@ -220,11 +232,14 @@ impl<'a> App<'a> {
 
     /// The screen goes where the session has gone.
     fn follow(&mut self) {
+        // Commands go to other pixels, too; where nothing is drawn, the mark alone has moved.
         if let (Some(frame), Subject::Pixel(subject)) = (&mut self.frame, self.session.subject())
             && !self.moved
-            && frame.refusal.is_none()
+            && (frame.refusal.is_none() || self.recorded != Some(subject.history().pixel))
         {
             frame.mark = subject.history().pixel;
+            frame.refusal = None;
+            self.recorded = Some(frame.mark);
         }
         self.model.registers = None;
         if let Some(page) = Page::of(&self.session) {
@@ -287,7 +302,7 @@ impl<'a> App<'a> {
 
     /// Scrolls a pane.
     fn scroll(&mut self, pane: Pane, lines: isize, surface: Surface) {
-        let layout = Layout::new(surface.area, self.model.view);
+        let layout = self.layout(surface);
         let Some(room) = layout.and_then(|layout| layout.body(pane)) else {
             return;
         };
@@ -352,24 +367,25 @@ impl<'a> App<'a> {
         if !std::mem::take(&mut self.moved) {
             return;
         }
-        let Some(frame) = &mut self.frame else {
+        let (Some(frame), Some(rendering)) = (&mut self.frame, rendering(&self.session)) else {
             return;
         };
         let before = Place::of(&self.session);
-        match (self.perform)(&mut self.session, Effect::Pixel(frame.mark)) {
-            Ok(_) => {
+        match PixelSubject::new(rendering, frame.mark, &Which::default()) {
+            Ok(subject) => {
                 frame.refusal = None;
+                self.session.replace(Subject::Pixel(subject));
                 if let Some(place) = before {
                     place.find(&mut self.session);
                 }
                 self.follow();
             }
-            Err(why) => frame.refusal = Some(why),
+            Err(why) => frame.refusal = Some(why.to_string()),
         }
     }
 
     fn mouse(&mut self, mouse: &MouseEvent, surface: Surface) {
-        let Some(layout) = Layout::new(surface.area, self.model.view) else {
+        let Some(layout) = self.layout(surface) else {
             return;
         };
         let (x, y) = (mouse.column, mouse.row);
@@ -443,6 +459,15 @@ impl<'a> App<'a> {
         if let Some(pixel) = canvas.and_then(|canvas: Canvas| canvas.pixel_at(x, y)) {
             self.mark(pixel);
         }
+    }
+}
+
+/// The scene that is debugged, as it was rendered.
+fn rendering<'a>(session: &Session<'a>) -> Option<&'a Rendering<'a>> {
+    match session.subject() {
+        Subject::Listing(_) => None,
+        Subject::Pixel(subject) => Some(subject.rendering()),
+        Subject::Vertex(subject) => Some(subject.rendering()),
     }
 }
 

@@ -45,7 +45,7 @@ pub(super) const SMALLEST: [u16; 2] = [72, 18];
 /// From here on there are three columns.
 const WIDE: [u16; 2] = [112, 28];
 
-/// A name, four numbers and a swatch.
+/// A name, four numbers and a swatch, which the quad has as well.
 const REGISTERS: u16 = 39;
 
 /// Where everything stands. The first row of a pane is its heading; between columns there is one of lines.
@@ -62,8 +62,9 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Divides the screen; `view` is what the shared place shows. `None` if there is too little room.
-    pub(super) fn new(area: Rect, view: Pane) -> Option<Self> {
+    /// Divides the screen; `view` is what the shared place shows. Without pictures there is no column for them. `None` if there is
+    /// too little room.
+    pub(super) fn new(area: Rect, view: Pane, pictures: bool) -> Option<Self> {
         if area.width < SMALLEST[0] || area.height < SMALLEST[1] {
             return None;
         }
@@ -83,7 +84,7 @@ impl Layout {
             prompt: row(area.bottom() - 1),
             rules: Vec::new(),
         };
-        if area.width >= WIDE[0] && area.height >= WIDE[1] {
+        if pictures && area.width >= WIDE[0] && area.height >= WIDE[1] {
             layout.divide_widely(inner, view);
         } else {
             layout.divide_narrowly(inner, view);
@@ -105,7 +106,7 @@ impl Layout {
     }
 
     fn divide_widely(&mut self, inner: Rect, view: Pane) {
-        let pictures = (inner.width * 3 / 10).max(34);
+        let pictures = (inner.width * 3 / 10).max(REGISTERS);
         let (rest, right) = self.split(inner, inner.width - pictures - 1);
         let (left, middle) = self.split(rest, rest.width - REGISTERS - 1);
         let [listing, output] = stack(left, inner.height * 3 / 5);
@@ -211,9 +212,9 @@ mod tests {
             .zip((SMALLEST[1]..90).step_by(3));
         let sizes = sizes.chain([(80, 24), (80, 23), (120, 40), (SMALLEST[0], SMALLEST[1])]);
         for (width, height) in sizes {
-            for view in VIEWS {
+            for (view, pictures) in VIEWS.into_iter().flat_map(|v| [(v, false), (v, true)]) {
                 let area = Rect::new(0, 0, width, height);
-                let layout = Layout::new(area, view).unwrap();
+                let layout = Layout::new(area, view, pictures).unwrap();
                 let panes = layout.panes.iter().map(|(_, area)| *area);
                 let parts: Vec<Rect> = panes
                     .chain(layout.rules.iter().copied())
@@ -232,18 +233,26 @@ mod tests {
                 assert_eq!(layout.body(Pane::Registers).unwrap().width, REGISTERS);
             }
         }
-        assert_eq!(Layout::new(Rect::new(0, 0, 71, 24), Pane::Frame), None);
-        assert_eq!(Layout::new(Rect::new(0, 0, 80, 17), Pane::Frame), None);
+        assert_eq!(
+            Layout::new(Rect::new(0, 0, 71, 24), Pane::Frame, true),
+            None
+        );
+        assert_eq!(
+            Layout::new(Rect::new(0, 0, 80, 17), Pane::Frame, true),
+            None
+        );
     }
 
     #[test]
     fn small_screens_share_a_place() {
-        let shares = |width, height| {
-            let layout = Layout::new(Rect::new(0, 0, width, height), Pane::Texture).unwrap();
+        let shares = |width, height, pictures| {
+            let area = Rect::new(0, 0, width, height);
+            let layout = Layout::new(area, Pane::Texture, pictures).unwrap();
             assert_eq!(layout.shared().unwrap().0, Pane::Texture);
             layout.shares().map(|(_, pane)| pane).collect::<Vec<_>>()
         };
-        assert_eq!(shares(80, 24), VIEWS);
-        assert_eq!(shares(120, 40), [Pane::Texture, Pane::Quad]);
+        assert_eq!(shares(80, 24, true), VIEWS);
+        assert_eq!(shares(120, 40, false), VIEWS);
+        assert_eq!(shares(120, 40, true), [Pane::Texture, Pane::Quad]);
     }
 }

@@ -14,7 +14,7 @@ use ratatui::crossterm::event::{
 use ratatui::layout::Rect;
 use std::collections::BTreeMap;
 use texcrd::debug::{
-    Console, Effect, Given, Listing, ListingSubject, PixelSubject, Session, Subject, Text, Which,
+    Console, Effect, Given, Listing, ListingSubject, PixelSubject, Session, Subject, Which,
 };
 use texcrd::diagnostic::SourceMap;
 use texcrd::kernel::{self, Kernel};
@@ -54,7 +54,7 @@ impl Owned {
             sources: &self.sources,
         };
         let subject = Subject::Listing(ListingSubject { listing, given });
-        let perform = |_: &mut Session<'_>, _| Err("not in these tests".to_string());
+        let perform = |_: &Effect| Err("not in these tests".to_string());
         App::new(Session::new(subject), Console::new(), Box::new(perform))
     }
 }
@@ -121,16 +121,9 @@ fn rendering(scene: &Scene) -> Rendering<'_> {
 }
 
 fn pixel_app<'a>(rendering: &'a Rendering<'a>, pixel: [u32; 2]) -> App<'a> {
-    let subject = |pixel| PixelSubject::new(rendering, pixel, &Which::default());
-    let session = Session::new(Subject::Pixel(subject(pixel).unwrap()));
-    let perform = move |session: &mut Session<'a>, effect| {
-        let Effect::Pixel(pixel) = effect else {
-            return Err("not in these tests".to_string());
-        };
-        let subject = subject(pixel).map_err(|why| why.to_string())?;
-        session.replace(Subject::Pixel(subject));
-        Ok(Text::default())
-    };
+    let subject = PixelSubject::new(rendering, pixel, &Which::default()).unwrap();
+    let session = Session::new(Subject::Pixel(subject));
+    let perform = |_: &Effect| Err("not in these tests".to_string());
     App::new(session, Console::new(), Box::new(perform))
 }
 

@@ -113,7 +113,8 @@ fn there_is_too_little_room() {
     keys(&mut pixel, "nn");
     for view in ['1', '2', '3', '4'] {
         keys(&mut pixel, &view.to_string());
-        for (width, height) in (0..100).flat_map(|w| [(w, w / 3), (w, 60), (160, w)]) {
+        let edges = (0..100).step_by(11).chain([72, 112]);
+        for (width, height) in edges.flat_map(|w| [(w, w / 4), (w, 30), (113, w)]) {
             let area = Rect::new(0, 0, width, height);
             let mut buffer = Buffer::empty(area);
             let theme = Theme {
@@ -153,10 +154,9 @@ fn pictures_of_real_pixels_leave_their_cells_empty() {
     let [picture] = &pictures[..] else {
         panic!("{} pictures", pictures.len());
     };
-    // 8:6 in what the pane has: all of its height, which is a multiple of 6 at 20 pixels a row.
-    let (width, height) = picture.image.dimensions();
-    assert_eq!(width * 6, height * 8);
-    assert_eq!(u32::from(picture.area.height), height.div_ceil(20));
+    // 8:6 in the seven rows of the pane, 20 pixels each: 140 of them, and 140 · 8 / 6 across, 19 cells of 10.
+    assert_eq!(picture.image.dimensions(), (186, 140));
+    assert_eq!((picture.area.width, picture.area.height), (19, 7));
     for position in picture.area.positions() {
         assert_eq!(buffer[position].symbol(), " ");
     }

@@ -49,7 +49,7 @@ impl Screen<'_, '_> {
     /// Draws everything; what is left are the pictures of real pixels and the place of the cursor.
     pub(super) fn draw(&self, buf: &mut Buffer) -> (Vec<Placed>, Option<Position>) {
         let area = *buf.area();
-        let Some(layout) = Layout::new(area, self.model.view) else {
+        let Some(layout) = Layout::new(area, self.model.view, self.frame.is_some()) else {
             too_small(buf, area);
             return (Vec::new(), None);
         };
@@ -122,9 +122,14 @@ impl Screen<'_, '_> {
         let shown = layout.shared().map(|(pane, _)| pane);
         self.rule(buf, area, shown.is_some_and(|pane| self.has_focus(pane)));
         for (pane, columns, text) in tabs(layout) {
-            let style = self
-                .theme
-                .heading(shown == Some(pane) && self.has_focus(pane));
+            let focused = shown == Some(pane) && self.has_focus(pane);
+            let sides = match (focused, shown == Some(pane)) {
+                (true, _) => ["[", "]"],
+                (false, true) => ["‹", "›"],
+                (false, false) => [" ", " "],
+            };
+            let text = sides.join(&text);
+            let style = self.theme.heading(focused);
             buf.set_stringn(columns.start, area.y, text, columns.len(), style);
         }
     }
@@ -140,19 +145,15 @@ impl Screen<'_, '_> {
 
 /// The names in the heading of the shared place, with the columns they stand in.
 pub(super) fn tabs(layout: &Layout) -> Vec<(Pane, Range<u16>, String)> {
-    let Some((shown, area)) = layout.shared() else {
+    let Some((_, area)) = layout.shared() else {
         return Vec::new();
     };
     let mut x = area.x;
     let mut found = Vec::new();
     for (number, pane) in layout.shares() {
         let text = format!("{} {}", number + 1, pane.name());
-        let text = if pane == shown {
-            format!("[{text}]")
-        } else {
-            format!(" {text} ")
-        };
-        let end = (x + text.chars().count() as u16).min(area.right());
+        // One more on each side, for what tells the one that is shown.
+        let end = (x + text.chars().count() as u16 + 2).min(area.right());
         found.push((pane, x..end, text));
         x = end;
     }

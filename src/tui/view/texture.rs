@@ -24,10 +24,11 @@ fn last_sample<'s, 'a>(session: &'s Session<'a>) -> Option<(&'s Run<'a>, Sample)
 /// The place of the picture and that of the text.
 fn divide(area: Rect) -> (Rect, Rect) {
     if area.height >= 16 {
-        let height = area.height - 8;
+        // What is said of a sample of two levels has eleven rows.
+        let height = area.height - (area.height / 2).min(11);
         let text = Rect {
             y: area.y + height,
-            height: 8,
+            height: area.height - height,
             ..area
         };
         (Rect { height, ..area }, text)
@@ -74,7 +75,7 @@ pub(super) fn draw(
     );
     let (room, text) = divide(area);
     pictures.extend(picture(screen, buf, room, texture, &found));
-    let lines = lines(screen, texture, &sample, &found, lane);
+    let lines = lines(screen, texture, &sample, &found, text.width);
     for (row, line) in lines.into_iter().enumerate() {
         put(buf, text, row, line);
     }
@@ -120,14 +121,18 @@ fn picture(
     blocks::draw(&canvas, at, &texels, "x", look, buf)
 }
 
+/// From so many columns on there is room for what a texel holds.
+const NUMBERS: u16 = 34;
+
 fn lines(
     screen: &Screen<'_, '_>,
     texture: &Texture,
     sample: &Sample,
     found: &Footprint,
-    lane: usize,
+    columns: u16,
 ) -> Vec<Line<'static>> {
     let theme = screen.theme;
+    let lane = screen.session.run().map_or(0, |run| run.lane & 3);
     let [u, v, w] = sample.coordinates[lane];
     let (level, face, ..) = shown(found);
     let [width, height, depth] = texture.size();
@@ -168,7 +173,7 @@ fn lines(
             format!("/{}", tap.level)
         };
         let mut spans = vec![
-            Span::raw(format!("{:<11}", format!("{place}{other}"))),
+            Span::raw(format!("{:<9}", format!("{place}{other}"))),
             Span::raw(format!("{:>4.0}% ", tap.weight * 100.0)),
         ];
         if tap.texel.is_some() {
@@ -177,8 +182,12 @@ fn lines(
                 theme.style(&Style::Swatch(colour(value))),
             ));
         }
-        for number in value {
-            spans.push(Span::raw(format!(" {}", short(number))));
+        if columns >= NUMBERS {
+            let numbers = value.map(|number| format!(" {number:.2}"));
+            spans.extend(numbers.map(Span::raw));
+        } else if tap.texel.is_some() {
+            let [red, green, blue] = colour(value);
+            spans.push(Span::raw(format!(" #{red:02x}{green:02x}{blue:02x}")));
         }
         lines.push(Line::from(spans));
     }
