@@ -1,12 +1,12 @@
 //! `eval`: one invocation on the CPU.
 
-use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json};
+use super::given::{self, Loaded};
+use super::{Format, Outcome, dialect, print, print_json};
 use serde_json::{Map, Value, json};
-use texcrd::diagnostic::{SourceMap, any_error};
+use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, Trace, bind_constants};
-use texcrd::isa::{RegisterFile, ShaderKind, Version, WriteMask};
-use texcrd::kernel::{self, Kernel, Slot};
-use texcrd::listing;
+use texcrd::isa::{ShaderKind, WriteMask};
+use texcrd::kernel::{Kernel, Slot};
 use texcrd::policy::Dialect;
 use texcrd::program::{Instruction, Program};
 
@@ -43,32 +43,25 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let bytes = files::read(&arguments.file)?;
-    let mut sources = SourceMap::new();
-    let file = sources
-        .add(files::name(&arguments.file), bytes)
-        .map_err(|e| Failure::Input(e.to_string()))?;
-    let checked = listing::check(file, arguments.dialect);
-    anstream::eprint!("{}", diagnostics::render(&sources, &checked.diagnostics));
-    let Some(program) = checked.accepted() else {
-        return Err(match diagnostics::summary(&checked.diagnostics) {
-            Some(summary) if any_error(&checked.diagnostics) => Failure::Input(summary),
-            _ => Failure::Rejected,
-        });
-    };
-    let kernel = kernel::lower(program, &kernel::Options::default())
-        .map_err(|e| Failure::Input(e.to_string()))?;
-
+    let Loaded {
+        sources,
+        program,
+        kernel,
+    } = given::load(&arguments.file, arguments.dialect)?;
+    let given = given::given(&arguments.set, program.version)?;
     let mut machine = Machine::<1>::new();
-    let constants = load(&arguments.set, program.version, &mut machine)?;
+    for input in given.inputs(&kernel) {
+        let [value, ..] = input.value;
+        machine.load(input.slot, value);
+    }
     let environment = Environment {
-        constants: bind_constants(&kernel, &constants),
+        constants: bind_constants(&kernel, &given.constants),
         ..Default::default()
     };
     let trace = Trace::record(&mut machine, &kernel, &environment, 0);
     let run = Run {
         sources: &sources,
-        program,
+        program: &program,
         kernel: &kernel,
         machine: &machine,
         trace: &trace,
@@ -76,91 +69,6 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     match arguments.format {
         Format::Json => print_json(&run.json(arguments.trace)),
         Format::Text => print(&run.text(arguments.trace)),
-    }
-}
-
-/// Loads the inputs and returns the constants.
-fn load(
-    settings: &[String],
-    version: Version,
-    machine: &mut Machine<1>,
-) -> Result<Vec<(u32, [f32; 4])>, Failure> {
-    for i in 0..16 {
-        // What no vertex element feeds reads (0, 0, 0, 1).
-        for slot in [Slot::input(i), Slot::texcoord(i)].into_iter().flatten() {
-            machine.load(slot, [0.0, 0.0, 0.0, 1.0]);
-        }
-    }
-    let mut constants = Vec::new();
-    for setting in settings {
-        let wrong = |why: &str| Failure::Io(format!("--set {setting}: {why}"));
-        let (name, numbers) = setting
-            .split_once('=')
-            .ok_or_else(|| wrong("write it as v0=1,2,3,4"))?;
-        let value =
-            value(numbers).ok_or_else(|| wrong("one to four numbers stand behind the `=`"))?;
-        let (file, index) =
-            register(name.trim()).ok_or_else(|| wrong("v#, t# and c# can be set"))?;
-        if index >= most(file, version) {
-            return Err(wrong(&format!(
-                "{version} has no {}",
-                file.register_name(index)
-            )));
-        }
-        let slot = match file {
-            RegisterFile::Const => {
-                constants.push((index, value));
-                continue;
-            }
-            RegisterFile::Input => Slot::input(index as usize),
-            _ => Slot::texcoord(index as usize),
-        };
-        // Interpolated colours reach a pixel shader clamped.
-        let clamped = file == RegisterFile::Input && version.kind() == ShaderKind::Pixel;
-        let value = if clamped {
-            value.map(texcrd::semantics::saturate)
-        } else {
-            value
-        };
-        if let Some(slot) = slot {
-            machine.load(slot, value);
-        }
-    }
-    Ok(constants)
-}
-
-/// How many registers of a file can be set. Vertex shaders can name constants up to 255, where a device has them.
-fn most(file: RegisterFile, version: Version) -> u32 {
-    match (file, version.kind()) {
-        (RegisterFile::Const, ShaderKind::Vertex) => kernel::MOST_VERTEX_CONSTANTS,
-        _ => file.count(version),
-    }
-}
-
-fn register(name: &str) -> Option<(RegisterFile, u32)> {
-    let files = [
-        RegisterFile::Input,
-        RegisterFile::Texture,
-        RegisterFile::Const,
-    ];
-    files.into_iter().find_map(|file| {
-        let (prefix, index) = name.split_at_checked(file.row().prefix.len())?;
-        let fits = prefix.eq_ignore_ascii_case(file.row().prefix);
-        Some((file, index.parse().ok().filter(|_| fits)?))
-    })
-}
-
-fn value(numbers: &str) -> Option<[f32; 4]> {
-    let numbers: Vec<f32> = (numbers.split(','))
-        .map(|n| n.trim().parse().ok())
-        .map(|n: Option<f32>| n.filter(|n| n.is_finite() || !numbers.contains(char::is_numeric)))
-        .collect::<Option<_>>()?;
-    match *numbers.as_slice() {
-        [x] => Some([x; 4]),
-        [x, y] => Some([x, y, 0.0, 1.0]),
-        [x, y, z] => Some([x, y, z, 1.0]),
-        [x, y, z, w] => Some([x, y, z, w]),
-        _ => None,
     }
 }
 

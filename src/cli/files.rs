@@ -108,7 +108,7 @@ pub(super) fn is_no_input<'a>(
     let is_this = |input: &&String| fs::canonicalize(input).is_ok_and(|input| input == place);
     match inputs.into_iter().find(is_this) {
         Some(_) => Err(Failure::Io(format!(
-            "{}: this is what is translated; write to another file",
+            "{}: this file is read; write to another one",
             path.display()
         ))),
         None => Ok(()),

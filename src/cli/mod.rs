@@ -7,12 +7,14 @@ mod adapters;
 mod baked;
 mod check;
 mod compare;
+mod debug;
 mod diagnostics;
 mod eval;
 mod files;
 mod filters;
 mod fuzz_match;
 mod generate;
+mod given;
 mod reflect;
 mod run;
 mod scene;
@@ -35,6 +37,7 @@ Examples:
   texcrd translate shader.vsh shader.psh -o shader.wgsl
   texcrd compare asm/stained_glass/figure5.toml
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
+  texcrd debug scene.toml --pixel 665,136
   texcrd test tests/conformance
 
 `-` is standard input. Exit status: 0 done, 1 the input is wrong, 2 usage or I/O.")]
@@ -48,6 +51,7 @@ enum Command {
     Adapters(adapters::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    Debug(debug::Arguments),
     Eval(eval::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
@@ -98,6 +102,7 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match command {
         Command::Adapters(arguments) => adapters::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Debug(arguments) => debug::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),

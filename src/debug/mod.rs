@@ -13,8 +13,9 @@
 //! Files: `moment` (what happens), `run` (a recorded invocation and its registers), `record` (how it is recorded), `subject`
 //! (what can be debugged), `pixel` (a pixel or a vertex of a scene), `session` (where one is, and how one moves), `expression` (the
 //! language of `print`, of conditions and of log messages), `stops` (breakpoints, and running until something happens), `why`
-//! (what made a value).
+//! (what made a value), `commands` (the command language), `text` (what is answered, with styles).
 
+mod commands;
 mod expression;
 mod given;
 mod moment;
@@ -27,8 +28,10 @@ mod stops;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod text;
 mod why;
 
+pub use commands::{CommandHelp, Console, Display, Effect, Reply, command_help};
 pub use expression::{
     Expression, ExpressionError, Format, LogMessage, Scope, Value, function_names, number_text,
 };
@@ -46,4 +49,5 @@ pub use stops::{
     Watchpoint,
 };
 pub use subject::{ListingSubject, Subject};
+pub use text::{Line, Piece, Style, Text};
 pub use why::{Cause, Slice, why};

@@ -96,6 +96,12 @@ impl Slot {
         self.within(TC, T)
     }
 
+    /// Whether the rasterizer takes it: `oPos`, `oFog`, `oPts`, `oD#`, `oT#` of a vertex shader, and [`Slot::DEPTH`]. The result
+    /// of a pixel shader, `r0`, is a temporary as well and not among them.
+    pub fn is_output(self) -> bool {
+        self == Self::DEPTH || (RAST..A).contains(&self.0)
+    }
+
     fn within(self, base: u8, end: u8) -> Option<usize> {
         (base..end)
             .contains(&self.0)

@@ -94,7 +94,7 @@ pub(super) fn readings<T>(
 }
 
 /// How many letters must be changed, added, dropped or swapped with their neighbour, in any case of letters.
-pub(super) fn distance(a: &str, b: &str) -> usize {
+pub(crate) fn distance(a: &str, b: &str) -> usize {
     if a.len() > LONGEST || b.len() > LONGEST {
         return usize::MAX;
     }

@@ -26,6 +26,7 @@ mod unread;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use confuse::distance;
 pub use fix::apply_fixes;
 pub use printer::{print, print_instruction};
 pub use rules::RULES;
