@@ -10,6 +10,7 @@ use super::view::{self, Frame, Page, Screen};
 use ratatui::crossterm::event::{Event, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 use texcrd::debug::{Console, Effect, PixelSubject, Position, Run, Session, Subject, Text, Which};
+use texcrd::program::Program;
 use texcrd::scene::Rendering;
 
 /// Lines that one turn of the wheel moves.
@@ -33,6 +34,8 @@ pub(super) struct Surface {
     pub area: Rect,
     /// Width and height of a cell in pixels; `None` where pictures are half blocks.
     pub cell: Option<[u16; 2]>,
+    /// How things look.
+    pub theme: Theme,
 }
 
 /// The front.
@@ -54,7 +57,9 @@ pub(crate) type Perform<'a> = Box<dyn FnMut(&Effect) -> Result<Text, String> + '
 
 impl<'a> App<'a> {
     /// A front for a session.
-    pub(super) fn new(session: Session<'a>, console: Console, perform: Perform<'a>) -> Self {
+    pub(super) fn new(session: Session<'a>, mut console: Console, perform: Perform<'a>) -> Self {
+        // They have a pane of their own.
+        console.quiet_displays = true;
         let frame = rendering(&session).map(|rendering| Frame {
             image: rendering.picture().to_image(),
             mark: rendering.size().map(|edge| edge / 2),
@@ -69,6 +74,9 @@ impl<'a> App<'a> {
             recorded: None,
             perform,
         };
+        let greeting = app.console.greeting(&app.session);
+        app.model.say(greeting);
+        app.follow_frame();
         app.follow();
         app
     }
@@ -218,6 +226,7 @@ impl<'a> App<'a> {
         if !command.trim().is_empty() {
             self.model.echo(command);
         }
+        let before = self.here();
         let reply = self.console.execute(&mut self.session, command);
         self.model.say(reply.text);
         if let Some(effect) = reply.effect {
@@ -226,12 +235,25 @@ impl<'a> App<'a> {
                 Err(why) => self.model.complain(why),
             }
         }
-        self.follow();
+        self.follow_frame();
+        // Looking at something leaves what is scrolled where it is.
+        if self.here() != before {
+            self.follow();
+        }
         reply.quit.then_some(Request::Quit)
     }
 
-    /// The screen goes where the session has gone.
-    fn follow(&mut self) {
+    /// The place, and what runs there.
+    fn here(&self) -> (Position, Option<*const Program>) {
+        let program = self
+            .session
+            .run()
+            .map(|run| std::ptr::from_ref(run.listing.program));
+        (self.session.position(), program)
+    }
+
+    /// The mark goes where the session has gone.
+    fn follow_frame(&mut self) {
         // Commands go to other pixels, too; where nothing is drawn, the mark alone has moved.
         if let (Some(frame), Subject::Pixel(subject)) = (&mut self.frame, self.session.subject())
             && !self.moved
@@ -241,6 +263,10 @@ impl<'a> App<'a> {
             frame.refusal = None;
             self.recorded = Some(frame.mark);
         }
+    }
+
+    /// The listing and the registers go where the session has gone.
+    fn follow(&mut self) {
         self.model.registers = None;
         if let Some(page) = Page::of(&self.session) {
             let next = self.session.next_instruction();
@@ -282,14 +308,12 @@ impl<'a> App<'a> {
             breakpoint.kind == kind && page.line_of(breakpoint.instruction) == Some(target)
         });
         let ids: Vec<u32> = here.map(|breakpoint| breakpoint.action.id).collect();
-        let cursor = self.model.cursor;
         if ids.is_empty() {
             self.run(&format!("break {target}"));
         }
         for id in ids {
             self.run(&format!("delete {id}"));
         }
-        self.model.cursor = cursor;
     }
 
     /// The arrow keys in the pane that has the focus.
@@ -323,7 +347,7 @@ impl<'a> App<'a> {
                 model.registers = Some(scrolled(first, lines, most));
             }
             Pane::Output => {
-                let all = view::wrapped_output(&model.output, room.width);
+                let all = view::wrapped_output(&model.output, room.width, surface.theme);
                 let most = all.saturating_sub(rows);
                 model.output_below = scrolled(model.output_below, lines.saturating_neg(), most);
             }
@@ -378,6 +402,7 @@ impl<'a> App<'a> {
                 if let Some(place) = before {
                     place.find(&mut self.session);
                 }
+                self.follow_frame();
                 self.follow();
             }
             Err(why) => frame.refusal = Some(why.to_string()),
@@ -474,7 +499,7 @@ fn rendering<'a>(session: &Session<'a>) -> Option<&'a Rendering<'a>> {
 /// A place in the last run, which another pixel may have as well.
 struct Place {
     /// Where its program lies: the same one has the same instructions.
-    program: *const texcrd::program::Program,
+    program: *const Program,
     /// How many moments after the first instruction begins.
     after: usize,
 }

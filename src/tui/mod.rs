@@ -56,6 +56,7 @@ pub(crate) fn run<'a>(
             let surface = Surface {
                 area: terminal.area()?,
                 cell: terminal.cell(),
+                theme,
             };
             match app.handle(&happened, surface) {
                 Some(Request::Quit) => return Ok(()),

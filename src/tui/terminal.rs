@@ -72,14 +72,19 @@ impl Terminal {
         // From here on the terminal is given back even if something fails.
         let mut guard = Guard(true);
         let variable = |name: &str| std::env::var(name).ok();
-        let answers = if protocol.is_none() && worth_asking(theme, variable) {
+        let known = cell_size();
+        let to_ask = match protocol {
+            None => worth_asking(theme, variable),
+            Some(protocol) => protocol != Protocol::Blocks && known.is_none(),
+        };
+        let answers = if to_ask {
             ask(PATIENCE)
         } else {
             Answers::default()
         };
         let protocol = protocol.unwrap_or_else(|| best(theme, variable, answers));
         KITTY.store(protocol == Protocol::Kitty, Ordering::SeqCst);
-        let cell = cell_size().or(answers.cell);
+        let cell = known.or(answers.cell);
         let mut inner = ratatui::Terminal::new(CrosstermBackend::new(Outbox(Vec::new())))?;
         let area = Rect::from((Position::ORIGIN, inner.size()?));
         inner.resize(area)?;

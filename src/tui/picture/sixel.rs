@@ -78,6 +78,78 @@ mod tests {
         assert_eq!(encode(&image), expected);
     }
 
+    /// What a terminal would show: the percentages of each pixel, by the format's own words.
+    fn decoded(text: &str, width: usize, height: usize) -> Vec<Vec<Option<[u32; 3]>>> {
+        let mut shown = vec![vec![None; width]; height];
+        let mut palette = BTreeMap::new();
+        let body = text.split_once("\"1;1;").unwrap().1;
+        let mut rest = body[body.find('#').unwrap()..]
+            .strip_suffix("\x1b\\")
+            .unwrap();
+        let (mut x, mut top, mut color) = (0, 0, 0);
+        let numbers = |rest: &mut &str| -> Vec<u32> {
+            let end = rest
+                .find(|c: char| !c.is_ascii_digit() && c != ';')
+                .unwrap();
+            let (numbers, left) = rest.split_at(end);
+            *rest = left;
+            numbers.split(';').map(|n| n.parse().unwrap()).collect()
+        };
+        while let Some(c) = rest.chars().next() {
+            rest = &rest[1..];
+            let (count, sixel) = match c {
+                '#' => {
+                    let found = numbers(&mut rest);
+                    color = found[0];
+                    if let [_, 2, red, green, blue] = found[..] {
+                        palette.insert(color, [red, green, blue]);
+                    }
+                    continue;
+                }
+                '$' => {
+                    x = 0;
+                    continue;
+                }
+                '-' => {
+                    (x, top) = (0, top + 6);
+                    continue;
+                }
+                '!' => {
+                    let count = numbers(&mut rest)[0];
+                    let sixel = rest.chars().next().unwrap();
+                    rest = &rest[1..];
+                    (count, sixel)
+                }
+                sixel => (1, sixel),
+            };
+            for _ in 0..count {
+                for row in (0..6).filter(|row| (sixel as u32 - 63) >> row & 1 == 1) {
+                    assert_eq!(shown[top + row][x], None, "a pixel is drawn once");
+                    shown[top + row][x] = Some(palette[&color]);
+                }
+                x += 1;
+            }
+        }
+        shown
+    }
+
+    #[test]
+    fn every_pixel_is_within_a_step_of_its_colour() {
+        // 40 columns of red, 15 rows of green (two bands and a half), blue against both.
+        let image = RgbImage::from_fn(40, 15, |x, y| {
+            Rgb([x as u8 * 6, y as u8 * 17, 255 - (x + y) as u8 * 4])
+        });
+        let shown = decoded(&encode(&image), 40, 15);
+        for (x, y, pixel) in image.enumerate_pixels() {
+            let color = shown[y as usize][x as usize].expect("every pixel is drawn");
+            for (channel, percent) in pixel.0.into_iter().zip(color) {
+                // A step of the palette is a fifth, 20%.
+                let wanted = f64::from(channel) / 2.55;
+                assert!((wanted - f64::from(percent)).abs() <= 20.0, "{x}, {y}");
+            }
+        }
+    }
+
     #[test]
     fn between_two_colours_half_of_the_pixels_have_each() {
         // 26·5 of 255 is a little more than half a step: of the thresholds 1/32, 3/32 … 31/32 eight lie below.

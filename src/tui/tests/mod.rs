@@ -1,6 +1,8 @@
 //! The screens, drawn into memory, and what keys and the mouse do.
 
 mod acts;
+#[cfg(unix)]
+mod panic;
 mod screens;
 
 use super::app::{App, Request, Surface};
@@ -161,7 +163,14 @@ fn text(buffer: &Buffer) -> String {
 }
 
 fn handle(app: &mut App<'_>, event: Event, area: Rect) -> Option<Request> {
-    let asked = app.handle(&event, Surface { area, cell: None });
+    let surface = Surface {
+        area,
+        cell: None,
+        theme: Theme {
+            colours: Colours::None,
+        },
+    };
+    let asked = app.handle(&event, surface);
     app.settle();
     asked
 }

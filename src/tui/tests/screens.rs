@@ -5,6 +5,7 @@ use super::*;
 use ratatui::style::Color;
 use std::fs;
 use std::path::Path;
+use texcrd::debug::{Line, Style, Text};
 
 #[track_caller]
 fn check(name: &str, buffer: &Buffer) {
@@ -24,12 +25,32 @@ fn check(name: &str, buffer: &Buffer) {
     }
 }
 
+/// What the commands answered is theirs to word: in its place stands a text of all styles, longer than a row.
+fn stand_in(app: &mut App<'_>) {
+    let styles = [
+        Style::Strong,
+        Style::Dim,
+        Style::Changed,
+        Style::Marked,
+        Style::Remarkable,
+        Style::Error,
+        Style::Swatch([255, 128, 0]),
+    ];
+    let line = |style| Line::styled("an answer of ", style).plain("0.25, 0.125, 0.0625, 0.03125");
+    app.model.output.clear();
+    app.model.echo("a command");
+    app.model.say(Text {
+        lines: styles.into_iter().map(line).collect(),
+    });
+}
+
 const VALUES: [(&str, &[f32]); 2] = [("t0", &[0.5, 1.5, -2.0]), ("c0", &[0.5, 1.0, 0.25, 1.0])];
 
 #[test]
 fn the_start() {
     let owned = Owned::new(LISTING);
-    let app = owned.app(&VALUES);
+    let mut app = owned.app(&VALUES);
+    stand_in(&mut app);
     check("start_80x24", &drawn(&app, SMALL, Colours::True));
     check("start_120x40", &drawn(&app, LARGE, Colours::True));
 }
@@ -39,6 +60,7 @@ fn after_steps() {
     let owned = Owned::new(LISTING);
     let mut app = owned.app(&VALUES);
     keys(&mut app, ":break 9\ndisplay r0.rgb * 2\nprint r1\n\x1bccb1");
+    stand_in(&mut app);
     check("steps_80x24", &drawn(&app, SMALL, Colours::True));
     check("steps_120x40", &drawn(&app, LARGE, Colours::True));
 }
@@ -52,7 +74,7 @@ fn without_colours_everything_is_said_by_characters() {
         drawn(&app, SMALL, Colours::None),
         drawn(&app, SMALL, Colours::True),
     );
-    // Swatches are fields of blanks: the characters are the same.
+    // Swatches are fields of blanks at the ends of lines: the characters are the same.
     assert_eq!(text(&plain), text(&deep));
     let colours = |buffer: &Buffer| {
         let cells = buffer.content().iter();
@@ -65,7 +87,8 @@ fn without_colours_everything_is_said_by_characters() {
 
     let scene = scene();
     let rendering = rendering(&scene);
-    let app = pixel_app(&rendering, [1, 4]);
+    let mut app = pixel_app(&rendering, [1, 4]);
+    stand_in(&mut app);
     let plain = drawn(&app, SMALL, Colours::None);
     assert_eq!(colours(&plain), 0);
     check("frame_colourless_80x24", &plain);
@@ -78,6 +101,7 @@ fn nan_is_told() {
     );
     let mut app = owned.app(&[("v0", &[0.0])]);
     keys(&mut app, ":until nan\n");
+    stand_in(&mut app);
     check("nan_80x24", &drawn(&app, SMALL, Colours::True));
 }
 
@@ -85,6 +109,7 @@ fn nan_is_told() {
 fn the_help() {
     let owned = Owned::new(LISTING);
     let mut app = owned.app(&VALUES);
+    stand_in(&mut app);
     keys(&mut app, "?");
     check("help_80x24", &drawn(&app, SMALL, Colours::True));
     check(
@@ -132,10 +157,13 @@ fn a_pixel_of_a_scene() {
     let scene = scene();
     let rendering = rendering(&scene);
     let mut app = pixel_app(&rendering, [1, 4]);
+    stand_in(&mut app);
     check("frame_80x24", &drawn(&app, SMALL, Colours::True));
     keys(&mut app, "n3");
+    stand_in(&mut app);
     check("texture_80x24", &drawn(&app, SMALL, Colours::True));
     keys(&mut app, "n4");
+    stand_in(&mut app);
     check("quad_80x24", &drawn(&app, SMALL, Colours::True));
     keys(&mut app, "3");
     check("pixel_120x40", &drawn(&app, LARGE, Colours::True));

@@ -1,9 +1,12 @@
 //! What the commands said, the latest at the bottom.
 
 use super::{Screen, line, put};
+use crate::tui::theme::Theme;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
+use std::ops::Range;
 
 /// Breaks a text into lines of at most `width` characters, between words where it can.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
@@ -27,41 +30,61 @@ pub(super) fn words(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Breaks a line into rows of at most `width` characters; what goes on is set in by two.
-fn rows<'t>(line: Line<'t>, width: usize) -> Vec<Line<'t>> {
-    if line.width() <= width {
-        return vec![line];
-    }
+/// What goes on in a further row is set in by so many columns.
+const INDENT: usize = 2;
+
+/// Where a line of these characters breaks into rows of at most `width`: between words where there is one to break behind.
+fn breaks(text: &[char], width: usize) -> Vec<Range<usize>> {
+    let width = width.max(INDENT + 1);
     let mut rows = Vec::new();
-    let mut row: Vec<Span<'t>> = Vec::new();
-    let mut used = 0;
-    for span in line.spans {
-        let mut text = String::new();
-        for c in span.content.chars() {
-            if used >= width.max(3) {
-                row.push(Span::styled(std::mem::take(&mut text), span.style));
-                rows.push(Line::from(std::mem::take(&mut row)));
-                row.push(Span::raw("  "));
-                used = 2;
-            }
-            text.push(c);
-            used += 1;
-        }
-        row.push(Span::styled(text, span.style));
+    let mut start = 0;
+    let mut room = width;
+    while text.len() - start > room {
+        let row = &text[start..=start + room];
+        let blank = row.iter().rposition(|c| *c == ' ');
+        // Blanks at the beginning are no place to break at.
+        let blank = blank.filter(|at| row[..*at].iter().any(|c| *c != ' '));
+        let end = start + blank.unwrap_or(room);
+        rows.push(start..end);
+        start = end + text[end..].iter().take_while(|c| **c == ' ').count();
+        room = width - INDENT;
     }
-    rows.push(Line::from(row));
+    rows.push(start..text.len());
     rows
 }
 
-/// How many rows the output takes.
-pub(in crate::tui) fn wrapped(output: &[texcrd::debug::Line], width: u16) -> usize {
-    let length = |line: &texcrd::debug::Line| -> usize {
-        line.pieces.iter().map(|p| p.text.chars().count()).sum()
+/// Breaks a line into rows.
+fn rows(line: &Line<'_>, width: usize) -> Vec<Line<'static>> {
+    let styled = |span: &Span<'_>| {
+        let style = span.style;
+        let characters: Vec<(char, Style)> = span.content.chars().map(|c| (c, style)).collect();
+        characters
     };
-    let width = usize::from(width).max(3);
-    // As `rows` breaks them: the first row has all columns, the others two less.
-    let rows = |length: usize| 1 + length.saturating_sub(width).div_ceil(width - 2);
-    output.iter().map(|line| rows(length(line))).sum()
+    let all: Vec<(char, Style)> = line.spans.iter().flat_map(styled).collect();
+    let text: Vec<char> = all.iter().map(|(c, _)| *c).collect();
+    let row = |(number, range): (usize, Range<usize>)| {
+        let runs = all[range].chunk_by(|a, b| a.1 == b.1);
+        let spans = runs.map(|run| {
+            let text: String = run.iter().map(|(c, _)| c).collect();
+            Span::styled(text, run[0].1)
+        });
+        let indent = (number > 0).then(|| Span::raw(" ".repeat(INDENT)));
+        indent.into_iter().chain(spans).collect()
+    };
+    breaks(&text, width)
+        .into_iter()
+        .enumerate()
+        .map(row)
+        .collect()
+}
+
+/// How many rows the output takes.
+pub(in crate::tui) fn wrapped(output: &[texcrd::debug::Line], width: u16, theme: Theme) -> usize {
+    let width = usize::from(width);
+    output
+        .iter()
+        .map(|text| rows(&line(text, theme), width).len())
+        .sum()
 }
 
 pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> String {
@@ -73,7 +96,7 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Str
         if shown.len() >= height + below {
             break;
         }
-        shown.extend(rows(line(text, screen.theme), width).into_iter().rev());
+        shown.extend(rows(&line(text, screen.theme), width).into_iter().rev());
     }
     let skipped = below.min(shown.len().saturating_sub(height));
     let visible = shown.into_iter().skip(skipped).take(height);
@@ -92,7 +115,6 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Str
 #[cfg(test)]
 mod tests {
     use super::*;
-    use texcrd::debug::{Piece, Style};
 
     #[test]
     fn words_stay_whole_where_they_fit() {
@@ -103,16 +125,24 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_counted_as_they_are_broken() {
-        for length in 0..60 {
-            let text = texcrd::debug::Line {
-                pieces: vec![Piece {
-                    text: "x".repeat(length),
-                    style: Style::Plain,
-                }],
-            };
-            let line = Line::from("x".repeat(length));
-            assert_eq!(wrapped(&[text], 10), rows(line, 10).len(), "{length}");
-        }
+    fn lines_break_between_words() {
+        let broken = |text: &str| -> Vec<String> {
+            let rows = rows(&Line::from(text.to_string()), 10).into_iter();
+            rows.map(|row| row.to_string()).collect()
+        };
+        assert_eq!(broken("0123456789"), ["0123456789"]);
+        assert_eq!(broken("r0 = 0.25, 0.5"), ["r0 = 0.25,", "  0.5"]);
+        assert_eq!(broken("   0123456789"), ["   0123456", "  789"]);
+        assert_eq!(broken("one two three"), ["one two", "  three"]);
+        assert_eq!(broken(""), [""]);
+    }
+
+    #[test]
+    fn styles_survive_a_break() {
+        let bold = Style::default().bold();
+        let line = Line::from(vec![Span::raw("r0 = "), Span::styled("0.25, 0.5", bold)]);
+        let rows = rows(&line, 10);
+        assert_eq!(rows[0].spans[1], Span::styled("0.25,", bold));
+        assert_eq!(rows[1].spans[1], Span::styled("0.5", bold));
     }
 }

@@ -12,8 +12,6 @@ use texcrd::kernel::Slot;
 
 /// A register.
 pub(in crate::tui) struct Row {
-    /// Which one.
-    pub target: Target,
     name: String,
     value: [f32; 4],
     /// The components that hold something.
@@ -68,7 +66,6 @@ pub(in crate::tui) fn rows(session: &Session<'_>) -> Vec<Row> {
         (touched || result) && (!slot.is_internal() || *slot == Slot::DEPTH)
     };
     let slots = Slot::all().filter(used).map(|slot| Row {
-        target: Target::Slot(slot),
         name: slot_name(slot, run.listing.program.version),
         value: registers.slot(slot, run.lane),
         written: registers.written(slot),
@@ -87,7 +84,6 @@ pub(in crate::tui) fn rows(session: &Session<'_>) -> Vec<Row> {
     });
     let constants: BTreeSet<u32> = kernel.constants().chain(relative).chain(set).collect();
     let constants = constants.into_iter().map(|index| Row {
-        target: Target::Constant(index),
         name: format!("c{index}"),
         value: registers.constant(index),
         written: WriteMask::ALL,
