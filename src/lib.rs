@@ -4,8 +4,11 @@
 //! [`kernel::Kernel`], and runs in an [`exec::Machine`]. [`scene::Scene`] puts listings, meshes and textures together
 //! and renders them through [`raster`].
 //!
+//! [`bytecode`] reads and writes the tokens that Direct3D 8 took instead of listings.
+//!
 //! `ARCHITECTURE.md` in the repository says which room knows of which.
 
+pub mod bytecode;
 #[cfg(feature = "scene")]
 pub mod case;
 pub mod debug;
@@ -28,6 +31,8 @@ pub mod raster;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod semantics;
+#[cfg(feature = "scene")]
+pub mod sheet;
 pub mod syntax;
 pub mod texture;
 pub mod validate;

@@ -3,7 +3,7 @@
 //! A [`Program`] says what was written, not whether it is allowed: operands may name registers that the version
 //! does not have. [`crate::validate`] judges it; [`crate::kernel`] lowers what was accepted.
 
-use crate::diagnostic::Span;
+use crate::diagnostic::{SourceMap, Span};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{
     Opcode, RegisterFile, ResultModifier, ShaderKind, SourceModifier, Swizzle, Version, WriteMask,
@@ -19,11 +19,27 @@ pub struct Program {
     pub version_span: Span,
     /// Everything after the version instruction, in order.
     pub statements: Vec<Statement>,
+    /// The comments that a token stream carries, in order. Those that a person writes into a listing are no part of the
+    /// shader.
+    pub comments: Vec<Comment>,
     /// The whole text of the shader.
     pub span: Span,
 }
 
 impl Program {
+    /// Statements and comments in the order of the token stream.
+    pub fn items(&self) -> impl Iterator<Item = Item<'_>> {
+        let mut comments = self.comments.iter().peekable();
+        let mut statements = self.statements.iter().enumerate().peekable();
+        std::iter::from_fn(move || {
+            let next = statements.peek().map_or(usize::MAX, |(i, _)| *i);
+            if let Some(comment) = comments.next_if(|c| c.before <= next) {
+                return Some(Item::Comment(comment));
+            }
+            statements.next().map(|(_, s)| Item::Statement(s))
+        })
+    }
+
     /// The instructions in order, without declarations.
     pub fn instructions(&self) -> impl Iterator<Item = &Instruction> {
         self.statements.iter().filter_map(|s| match s {
@@ -84,6 +100,31 @@ impl Statement {
     }
 }
 
+/// A comment of a token stream: debug text, a table of constants, anything.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Comment {
+    /// The number of the statement that it stands before; that of statements if it stands behind the last.
+    pub before: usize,
+    /// What it holds, at most [`Comment::MOST_WORDS`].
+    pub words: Vec<u32>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl Comment {
+    /// The most that one comment token can count.
+    pub const MOST_WORDS: usize = 0x7FFF;
+}
+
+/// One thing of a token stream.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Item<'a> {
+    /// A statement.
+    Statement(&'a Statement),
+    /// A comment.
+    Comment(&'a Comment),
+}
+
 /// An instruction with its operands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instruction {
@@ -101,6 +142,16 @@ pub struct Instruction {
     pub span: Span,
     /// The mnemonic with its suffixes.
     pub mnemonic_span: Span,
+}
+
+impl Instruction {
+    /// The instruction as it stands in its listing, on one line, with its `+`.
+    pub fn text(&self, sources: &SourceMap) -> String {
+        let text = sources.text(self.span);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let plus = if self.co_issue { "+" } else { "" };
+        format!("{plus}{}", words.join(" "))
+    }
 }
 
 /// A destination operand.

@@ -5,8 +5,10 @@
 use std::collections::BTreeMap;
 use suite::cases;
 use texcrd::case::Verdict;
+use texcrd::diagnostic::SourceMap;
 use texcrd::isa::{Opcode, Version};
 use texcrd::scene::Shader;
+use texcrd::{bytecode, syntax};
 
 #[path = "conformance/suite.rs"]
 mod suite;
@@ -26,6 +28,27 @@ fn every_case_passes() {
         }
     }
     assert!(failures.is_empty(), "{failures}");
+}
+
+/// Listing → tokens → listing → tokens: the second tokens are the first, the second listing prints as the first does.
+#[test]
+fn every_listing_comes_back_from_tokens() {
+    let mut count = 0;
+    for (path, case) in cases() {
+        for shader in case.vertex.iter().chain(&case.pixel) {
+            let words = bytecode::encode(&shader.program).unwrap();
+            let decoded = bytecode::decode(&words);
+            assert_eq!(decoded.diagnostics, [], "{path}");
+            let listing = syntax::print(&decoded.program.unwrap());
+            let mut sources = SourceMap::new();
+            let parsed = syntax::parse(sources.add("listing", listing.as_str()).unwrap());
+            let program = parsed.program.unwrap();
+            assert_eq!(bytecode::encode(&program).unwrap(), words, "{path}");
+            assert_eq!(syntax::print(&program), listing, "{path}");
+            count += 1;
+        }
+    }
+    assert!(count >= 500, "only {count} shaders");
 }
 
 #[test]

@@ -308,13 +308,10 @@ impl Run<'_> {
     fn instruction(&self, run: &Recorded<'_>, number: usize) -> Option<Origin> {
         let instruction = run.shader.program.instructions().nth(number)?;
         let at = self.case.sources.locate(instruction.span)?;
-        let text = self.case.sources.text(instruction.span);
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let plus = if instruction.co_issue { "+" } else { "" };
         Some(Origin {
             listing: at.file.to_owned(),
             line: at.line,
-            text: format!("{plus}{}", words.join(" ")),
+            text: instruction.text(&self.case.sources),
             how: "written by".to_owned(),
         })
     }

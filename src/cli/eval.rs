@@ -138,19 +138,11 @@ impl Run<'_> {
             })
     }
 
-    /// The text of an instruction on one line.
-    fn instruction_text(&self, instruction: &Instruction) -> String {
-        let text = self.sources.text(instruction.span);
-        let plus = if instruction.co_issue { "+" } else { "" };
-        let words: Vec<_> = text.split_whitespace().collect();
-        format!("{plus}{}", words.join(" "))
-    }
-
     fn text(&self, with_trace: bool) -> String {
         let mut out = String::new();
         if with_trace {
             for step in self.steps() {
-                let text = self.instruction_text(step.instruction);
+                let text = step.instruction.text(self.sources);
                 out.push_str(&format!("{:>4}  {text}\n", step.line));
                 for (slot, mask, value) in &step.registers {
                     let components = if *slot == Slot::DEPTH {
@@ -175,7 +167,7 @@ impl Run<'_> {
             .killed_by
             .and_then(|i| self.program.instructions().nth(i))
         {
-            let text = self.instruction_text(instruction);
+            let text = instruction.text(self.sources);
             out.push_str(&format!("killed by {text}\n"));
         }
         out
@@ -208,7 +200,7 @@ impl Run<'_> {
                         .collect();
                     json!({
                         "line": step.line,
-                        "text": self.instruction_text(step.instruction),
+                        "text": step.instruction.text(self.sources),
                         "writes": writes,
                     })
                 })

@@ -4,11 +4,13 @@
 //! failed; 2 usage or input and output.
 
 mod adapters;
+mod asm;
 mod baked;
 mod check;
 mod compare;
 mod debug;
 mod diagnostics;
+mod dis;
 mod eval;
 mod files;
 mod filters;
@@ -18,7 +20,7 @@ mod given;
 mod reflect;
 mod run;
 mod scene;
-mod show;
+mod streams;
 mod test;
 mod translate;
 
@@ -49,9 +51,11 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Adapters(adapters::Arguments),
+    Asm(asm::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
     Debug(debug::Arguments),
+    Dis(dis::Arguments),
     Eval(eval::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
@@ -101,6 +105,8 @@ pub(crate) fn main() -> ExitCode {
     }
     let outcome = match command {
         Command::Adapters(arguments) => adapters::run(&arguments),
+        Command::Asm(arguments) => asm::run(&arguments),
+        Command::Dis(arguments) => dis::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Debug(arguments) => debug::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -1,13 +1,13 @@
-//! `run`: a scene to a picture.
+//! `run`: a scene to a picture, or to pictures of registers.
 
-use super::show::Show;
 use super::{Failure, Outcome, dialect, files, scene};
 use clap::ValueEnum;
 use std::path::PathBuf;
 use texcrd::gpu::Renderer;
 use texcrd::policy::Dialect;
-use texcrd::raster::RegisterPicture;
-use texcrd::scene::{PreparedDraw, RenderOptions, Scene};
+use texcrd::raster::{Look, Target, Tone, View};
+use texcrd::scene::{RenderOptions, Scene, Show, ShowExpression};
+use texcrd::sheet::{Dressing, Tile};
 
 /// Who draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -21,16 +21,18 @@ enum Path {
 
 /// Renders a scene on the CPU or the GPU and writes a PNG.
 ///
-/// The scene file is described in docs/scene.md. `--show` pictures a register of one draw instead of its colour.
+/// The scene file is described in docs/scene.md. `--show` pictures registers of one draw instead of its colour: a picture
+/// of one, a contact sheet of several. docs/pictures.md says what the colours mean.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   texcrd run asm/stained_glass/scene.toml -o stained_glass.png
   texcrd run scene.toml -o small.png --size 320x240
   texcrd run asm/stained_glass/figure5.toml -o figure4.png --show oT5 --mag
-  texcrd run scene.toml -o gpu.png --on gpu
-  texcrd run scene.toml -o r2.png --show r2@12 --abs --scale 0.5
-  texcrd run scene.toml -o r2.png --show r2@12 --on gpu")]
+  texcrd run asm/stained_glass/scene.toml -o sheet.png --show all
+  texcrd run scene.toml -o sheet.png --show r2@12 --show r2@14 --signed
+  texcrd run scene.toml -o r2.png --show r2.r@12 --sign --bar
+  texcrd run scene.toml -o gpu.png --show r2@12 --on gpu")]
 pub(super) struct Arguments {
     /// The scene file.
     #[arg(value_name = "SCENE")]
@@ -38,7 +40,8 @@ pub(super) struct Arguments {
     /// Where the picture goes; `-` is standard output.
     #[arg(short, long, value_name = "OUT.png", value_parser = scene::picture)]
     output: PathBuf,
-    /// Width and height in pixels instead of those of the scene.
+    /// Width and height in pixels instead of those of the scene. Of a contact sheet: those of each picture on it, which
+    /// otherwise are at most 320 pixels wide.
     #[arg(long, value_name = "WxH", value_parser = scene::size)]
     size: Option<[u32; 2]>,
     /// Who draws.
@@ -48,18 +51,25 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     /// Picture a register: r2@12 is r2 after line 12 of the pixel shader, oT5 an output of the vertex shader as it
-    /// reaches the pixel, r0.a one component as grey.
+    /// reaches the pixel, r0.a one component as grey. `all` is one picture for each instruction. Several make a contact
+    /// sheet.
     #[arg(long, value_name = "EXPR")]
-    show: Option<Show>,
-    /// The draw whose register is pictured; without it the last one.
+    show: Vec<ShowExpression>,
+    /// The draw whose registers are pictured; without it the last one.
     #[arg(long, value_name = "NAME", requires = "show")]
     draw: Option<String>,
-    /// Show the length of (x, y, z) as grey.
+    /// Show the length of the components as grey.
     #[arg(long, requires = "show")]
     mag: bool,
     /// Show absolute values.
     #[arg(long, requires = "show")]
     abs: bool,
+    /// Show -1 as black, 0 as mid grey and 1 as white.
+    #[arg(long, requires = "show", conflicts_with = "abs")]
+    signed: bool,
+    /// Show only which numbers are negative, 0 and positive.
+    #[arg(long, requires = "show", conflicts_with_all = ["abs", "signed"])]
+    sign: bool,
     /// Multiply what is shown.
     #[arg(
         long,
@@ -69,15 +79,54 @@ pub(super) struct Arguments {
         requires = "show"
     )]
     scale: f32,
+    /// Mark in colours of their own what is too dark or too bright to be seen, and what `texkill` discards. NaN, infinite
+    /// and unwritten numbers are marked in any case.
+    #[arg(long, requires = "show")]
+    mark: bool,
+    /// Draw a scale bar and a legend of the marks below the picture; contact sheets have them.
+    #[arg(long, requires = "show")]
+    bar: bool,
+    /// Draw none on a contact sheet.
+    #[arg(long, requires = "show", conflicts_with = "bar")]
+    no_bar: bool,
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
 }
 
+/// Pictures on a contact sheet are at most so wide, unless a size is given.
+const SHEET_WIDTH: u32 = 320;
+
 /// The value parser of `--scale`.
 fn scale(text: &str) -> Result<f32, String> {
     let number = text.parse().ok().filter(|n: &f32| n.is_finite());
     number.ok_or_else(|| format!("`{text}` is no number"))
+}
+
+impl Arguments {
+    /// How registers are shown.
+    fn look(&self) -> Look {
+        Look {
+            view: match self.mag {
+                true => View::Magnitude,
+                false => View::Color,
+            },
+            tone: match (self.abs, self.signed, self.sign) {
+                (true, ..) => Tone::Absolute,
+                (_, true, _) => Tone::Signed,
+                (_, _, true) => Tone::Sign,
+                (false, false, false) => Tone::Plain,
+            },
+            scale: self.scale,
+            marks_range: self.mark,
+            ..Look::default()
+        }
+    }
+
+    /// Whether a contact sheet is made of these tiles.
+    fn is_sheet(&self, tiles: &[Tile]) -> bool {
+        tiles.len() > 1 || self.show.iter().any(ShowExpression::is_all)
+    }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -86,69 +135,78 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     }
     files::can_be_written(&arguments.output)?;
     let scene = scene::load(&arguments.scene, arguments.dialect)?;
-    let show = match &arguments.show {
-        Some(show) => Some(register(arguments, show, &scene)?),
-        None => None,
-    };
+    let tiles = tiles(arguments, &scene)?;
+    let sheet = arguments.is_sheet(&tiles);
+    let size = (arguments.size).unwrap_or_else(|| match sheet {
+        true => shrunk(scene.size()),
+        false => scene.size(),
+    });
+    Target::check_planes(size, tiles.len())
+        .map_err(|error| Failure::Io(format!("--show: {error}; a smaller --size helps")))?;
     let options = RenderOptions {
-        size: arguments.size,
-        show,
+        size: Some(size),
+        show: Some(Show {
+            draw: arguments.draw.clone(),
+            pictures: tiles.iter().map(|tile| tile.picture).collect(),
+        })
+        .filter(|_| !tiles.is_empty()),
     };
+    let dressing = Dressing {
+        captions: sheet,
+        bars: (sheet || arguments.bar) && !arguments.no_bar,
+    };
+    let dressed = dressing.captions || dressing.bars;
+    let too_large = |error| Failure::Io(format!("--show: {error}"));
     let picture = match arguments.on {
-        Path::Cpu => (scene::draw_on_cpu(&scene, &arguments.scene, &options)?)
-            .picture()
-            .to_image(),
+        Path::Cpu => {
+            let drawn = scene::draw_on_cpu(&scene, &arguments.scene, &options)?;
+            match dressed {
+                true => drawn.sheet(&tiles, dressing).map_err(too_large)?,
+                false => drawn.picture().to_image(),
+            }
+        }
         Path::Gpu => {
             let device = scene::device(arguments.adapter.as_deref())?;
             let mut renderer = Renderer::new(&device);
             let frame = scene::draw_on_gpu(&mut renderer, &scene, &arguments.scene, &options, &[])?;
-            frame.picture().clone()
+            match dressed {
+                true => frame.sheet(&tiles, dressing).map_err(too_large)?,
+                false => frame.picture().clone(),
+            }
         }
     };
     scene::write_png(&arguments.output, &picture)
 }
 
-/// The register to show, as the pixel shader of its draw has it.
-fn register(
-    arguments: &Arguments,
-    show: &Show,
-    scene: &Scene,
-) -> Result<texcrd::scene::Show, Failure> {
-    let wrong = |why: String| Failure::Io(format!("--show: {why}"));
-    let passes = scene.passes(arguments.size.unwrap_or(scene.size()));
-    let draws = passes.last().map(|pass| pass.draws.as_slice());
-    let draws: &[PreparedDraw<'_>] = draws.unwrap_or_default();
-    let draw = match &arguments.draw {
-        Some(name) => draws.iter().rfind(|draw| draw.name == name),
-        None => draws.last(),
+/// A size of the same shape that is at most as wide as pictures on a sheet.
+fn shrunk([width, height]: [u32; 2]) -> [u32; 2] {
+    let least = width.min(SHEET_WIDTH);
+    let height = u64::from(height) * u64::from(least) / u64::from(width.max(1));
+    [least, (height as u32).max(1)]
+}
+
+/// What is pictured, expression after expression.
+fn tiles(arguments: &Arguments, scene: &Scene) -> Result<Vec<Tile>, Failure> {
+    let Some(first) = arguments.show.first() else {
+        return Ok(Vec::new());
     };
-    let draw = draw.ok_or_else(|| {
-        let names: Vec<_> = draws.iter().map(|draw| draw.name).collect();
-        wrong(format!("the picture has the draws {}", names.join(", ")))
-    })?;
-    let program = &draw.pixel.program;
-    let slot = show.slot(program.version).map_err(wrong)?;
-    let instructions = match show.line {
-        None => usize::MAX,
-        Some(line) => {
-            let of = |span| scene.sources().locate(span).map_or(0, |at| at.line);
-            let last = of(program.span.at_end());
-            if line == 0 || line > last {
-                let message = format!("the listing has the lines 1 to {last}, not {line}");
-                return Err(wrong(message));
-            }
-            let runs = program.instructions().filter(|i| of(i.span) <= line);
-            runs.count()
-        }
+    let place = (scene.shown_draw(arguments.draw.as_deref()))
+        .map_err(|error| Failure::Io(format!("--draw: {error}")))?;
+    let mut passes = scene.passes(scene.size());
+    let draws = passes.pop().map(|pass| pass.draws).unwrap_or_default();
+    let Some(draw) = draws.get(place) else {
+        return Ok(Vec::new());
     };
-    Ok(texcrd::scene::Show {
-        draw: Some(draw.name.to_string()),
-        picture: RegisterPicture {
-            slot,
-            instructions,
-            view: show.view(arguments.mag),
-            absolute: arguments.abs,
-            scale: arguments.scale,
-        },
-    })
+    let mut tiles = Vec::new();
+    for expression in &arguments.show {
+        let shown = expression.tiles(scene, draw, arguments.look(), arguments.mark);
+        tiles.extend(shown.map_err(|why| Failure::Io(format!("--show: {why}")))?);
+    }
+    if tiles.is_empty() {
+        let (name, all) = (draw.name, first);
+        return Err(Failure::Io(format!(
+            "--show {all}: the pixel shader of `{name}` has no instruction that writes a register"
+        )));
+    }
+    Ok(tiles)
 }

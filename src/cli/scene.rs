@@ -123,9 +123,14 @@ pub(super) fn draw_on_gpu<'r, 'd>(
 
 /// Writes a picture as PNG.
 pub(super) fn write_png(path: &Path, picture: &RgbaImage) -> Outcome {
+    /// Pixels from which on compressing well would take longer than drawing.
+    const MANY: u64 = 3 << 19;
     let mut png = Vec::new();
-    let encoder =
-        PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive);
+    let compression = match u64::from(picture.width()) * u64::from(picture.height()) < MANY {
+        true => CompressionType::Default,
+        false => CompressionType::Fast,
+    };
+    let encoder = PngEncoder::new_with_quality(&mut png, compression, FilterType::Adaptive);
     (picture.write_with_encoder(encoder))
         .map_err(|e| Failure::Input(format!("the picture cannot be written as PNG: {e}")))?;
     files::write(path, &png)

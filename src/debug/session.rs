@@ -254,9 +254,17 @@ impl<'a> Session<'a> {
     /// Forgets everything that was set by hand; the place is the same as far as it still is.
     pub fn unset(&mut self) {
         if let Some(original) = self.original.take() {
+            let Position { run, at } = self.position;
+            let passed = self.run().map_or(0, |run| {
+                let moments = run.moments.iter().take(at);
+                moments.filter(|moment| moment.event == Event::Set).count()
+            });
             self.runs = original;
             self.edits.clear();
-            self.go_to(self.position);
+            self.go_to(Position {
+                run,
+                at: at - passed,
+            });
         }
     }
 }

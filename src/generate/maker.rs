@@ -88,6 +88,7 @@ impl<'a> Maker<'a> {
                 version,
                 version_span: HERE,
                 statements: Vec::new(),
+                comments: Vec::new(),
                 span: HERE,
             },
             registers: Registers::new(version, first_phase),

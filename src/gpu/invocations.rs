@@ -2,7 +2,7 @@
 
 use super::buffers::{UniformArena, filled};
 use super::harness::{Look, Rows, locations, with_entries};
-use super::picture::{COLOR_FORMAT, Picture, depth_format, floats, number};
+use super::picture::{COLOR_FORMAT, Depth, Picture, depth_format, floats, number};
 use super::pipeline::{Pipeline, Pipelines};
 use super::state::fixed_state;
 use super::texture::{GpuTexture, Samplers};
@@ -194,7 +194,11 @@ impl<'d> Invocations<'d> {
             &attributes(translation, &locations, inputs),
             wgpu::BufferUsages::VERTEX,
         );
-        let picture = Picture::new(device, size, format, depth, look == Look::Registers);
+        let after = match look {
+            Look::Color => Depth::Dropped,
+            Look::Registers => Depth::Read,
+        };
+        let picture = Picture::new(device, size, format, depth, after);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let mut commands = picture.begin(&mut encoder, Some(clear));
         commands.set_pipeline(&pipeline.pipeline);

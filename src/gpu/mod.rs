@@ -22,7 +22,7 @@
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
 //! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
-//! `registers` and `parting` look into one pixel of them, `invocations` runs shaders for single invocations, for tests, by way
+//! `shown` makes pictures of registers, `registers` and `parting` look into one pixel, `invocations` runs shaders for single invocations, for tests, by way
 //! of the entry points of `harness`, `programs` many shaders in one pipeline.
 
 mod buffers;
@@ -37,6 +37,7 @@ mod pipeline;
 mod programs;
 mod registers;
 mod renderer;
+mod shown;
 mod state;
 mod texture;
 mod uniform;

@@ -198,7 +198,7 @@ pub fn compare_pixel(
             continue;
         };
         let fragment = &event.fragment;
-        let trace = (on_cpu.program(None)).trace(&fragment.batch, fragment.lane);
+        let trace = (on_cpu.program()).trace(&fragment.batch, fragment.lane);
         let on_cpu = on_cpu.draw();
         let wanted = wanted(&on_cpu.pixel.kernel, &trace);
         let registers = gpu.registers(on_gpu, fragment.primitive, pixel, &wanted)?;

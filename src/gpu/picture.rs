@@ -11,7 +11,18 @@ pub(super) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8U
 pub(super) struct Picture {
     color: wgpu::Texture,
     depth: wgpu::Texture,
-    keeps_depth: bool,
+    after: Depth,
+}
+
+/// What becomes of the depth behind a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// Nobody needs it.
+    Dropped,
+    /// A pass that goes on with the picture needs it, and the stencil.
+    Kept,
+    /// It is read with the colours, and is 32-bit floats.
+    Read,
 }
 
 /// A depth format: with as many bits as a float has where the device can join that with stencil, or where there is no need
@@ -27,38 +38,40 @@ pub(super) fn depth_format(device: &Device, stencil: bool) -> wgpu::TextureForma
 }
 
 impl Picture {
-    /// Both buffers of one size. The caller has checked it. `keeps_depth`: the depth can be read, and is 32-bit floats.
+    /// Both buffers of one size. The caller has checked it.
     pub(super) fn new(
         device: &Device,
         [width, height]: [u32; 2],
         format: wgpu::TextureFormat,
         depth: wgpu::TextureFormat,
-        keeps_depth: bool,
+        after: Depth,
     ) -> Self {
         let size = wgpu::Extent3d {
             width,
             height,
             depth_or_array_layers: 1,
         };
-        let texture = |format, read: bool| {
-            let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
-            usage.set(wgpu::TextureUsages::COPY_SRC, read);
-            device.device.create_texture(&wgpu::TextureDescriptor {
-                label: None,
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage,
-                view_formats: &[],
-            })
-        };
+        let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        usage.set(wgpu::TextureUsages::COPY_SRC, after == Depth::Read);
         Self {
-            color: texture(format, true),
-            depth: texture(depth, keeps_depth),
-            keeps_depth,
+            color: color_buffer(device, size, format),
+            depth: buffer(device, size, depth, usage),
+            after,
         }
+    }
+
+    /// Other colours over the same depth and stencil.
+    pub(super) fn with_color(&self, device: &Device, format: wgpu::TextureFormat) -> Self {
+        Self {
+            color: color_buffer(device, self.color.size(), format),
+            depth: self.depth.clone(),
+            after: self.after,
+        }
+    }
+
+    /// Width and height.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.color.width(), self.color.height()]
     }
 
     /// Begins a pass: the colour cleared to this one, or left as it is; depth cleared to 1, stencil to 0.
@@ -67,6 +80,28 @@ impl Picture {
         encoder: &'e mut wgpu::CommandEncoder,
         clear: Option<[f64; 4]>,
     ) -> wgpu::RenderPass<'e> {
+        self.pass(encoder, clear, false)
+    }
+
+    /// Goes on with depth and stencil as they are, if they were [kept](Depth::Kept); the colour cleared or left as it is.
+    pub(super) fn resume<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        clear: Option<[f64; 4]>,
+    ) -> wgpu::RenderPass<'e> {
+        self.pass(encoder, clear, true)
+    }
+
+    fn pass<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        clear: Option<[f64; 4]>,
+        resumes: bool,
+    ) -> wgpu::RenderPass<'e> {
+        let store = match self.after {
+            Depth::Dropped => wgpu::StoreOp::Discard,
+            Depth::Kept | Depth::Read => wgpu::StoreOp::Store,
+        };
         let color = self.color.create_view(&Default::default());
         let depth = self.depth.create_view(&Default::default());
         let load = clear.map_or(wgpu::LoadOp::Load, |[r, g, b, a]| {
@@ -86,16 +121,19 @@ impl Picture {
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &depth,
                 depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: match self.keeps_depth {
-                        true => wgpu::StoreOp::Store,
-                        false => wgpu::StoreOp::Discard,
+                    load: match resumes {
+                        true => wgpu::LoadOp::Load,
+                        false => wgpu::LoadOp::Clear(1.0),
                     },
+                    store,
                 }),
                 stencil_ops: (self.depth.format().has_stencil_aspect()).then_some(
                     wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(0),
-                        store: wgpu::StoreOp::Discard,
+                        load: match resumes {
+                            true => wgpu::LoadOp::Load,
+                            false => wgpu::LoadOp::Clear(0),
+                        },
+                        store,
                     },
                 ),
             }),
@@ -116,12 +154,25 @@ impl Picture {
         mut encoder: wgpu::CommandEncoder,
     ) -> Result<(Vec<u8>, Vec<u8>), GpuError> {
         let color = Copied::of(device, &mut encoder, &self.color);
-        let depth = (self.keeps_depth).then(|| Copied::of(device, &mut encoder, &self.depth));
+        let read = self.after == Depth::Read;
+        let depth = read.then(|| Copied::of(device, &mut encoder, &self.depth));
         device.queue.submit([encoder.finish()]);
         device.check()?;
         let colors = color.bytes(device)?;
         let depths = depth.map_or(Ok(Vec::new()), |depth| depth.bytes(device))?;
         Ok((colors, depths))
+    }
+
+    /// Puts colours of four bytes into the picture, row after row without gaps.
+    pub(super) fn fill(&self, device: &Device, bytes: &[u8]) {
+        let size = self.color.size();
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * size.width),
+            rows_per_image: None,
+        };
+        let to = self.color.as_image_copy();
+        device.queue.write_texture(to, bytes, layout, size);
     }
 
     /// Copies the colour of one pixel to a place in a buffer, whose offset is a multiple of its size.
@@ -151,6 +202,36 @@ impl Picture {
             },
         );
     }
+}
+
+/// A texture that colours are drawn and copied into and read from.
+fn color_buffer(
+    device: &Device,
+    size: wgpu::Extent3d,
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::COPY_SRC
+        | wgpu::TextureUsages::COPY_DST;
+    buffer(device, size, format, usage)
+}
+
+fn buffer(
+    device: &Device,
+    size: wgpu::Extent3d,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    device.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
 }
 
 /// A buffer of so many bytes that things are copied into to be read.

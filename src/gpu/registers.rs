@@ -1,11 +1,12 @@
 //! The registers of one pixel: the pixel shader cut after each instruction and run again.
 
 use super::buffers::UniformArena;
-use super::picture::{Picture, content, depth_format, floats, readback};
+use super::picture::{Depth, Picture, content, depth_format, floats, readback};
 use super::{Frame, GpuError};
 use crate::kernel::Slot;
-use crate::raster::{ColorMask, Compare, RegisterPicture, View};
+use crate::raster::{ColorMask, Compare};
 use crate::scene::PreparedDraw;
+use crate::wgsl::{Shown, ShownPixels};
 
 /// What the registers of a pixel held.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +21,7 @@ pub struct PixelRegisters {
 const MOST: usize = 512;
 
 /// What is drawn over; no shader gives these four numbers.
-const BARE: [f32; 4] = [-1.5e38, 1.25e38, -1.125e38, 1.75e38];
+pub(super) const BARE: [f32; 4] = [-1.5e38, 1.25e38, -1.125e38, 1.75e38];
 
 impl Frame<'_, '_> {
     /// What registers hold at a pixel of the picture where one primitive of a draw covers it; none if the device covers
@@ -64,22 +65,21 @@ impl Frame<'_, '_> {
             wgpu::TextureFormat::Rgba32Float,
             depth_format(device, false),
         );
-        let shown = |slot, instructions, view| RegisterPicture {
+        let shown = |slot, instructions, pixels| Shown {
             slot,
             instructions,
-            view,
-            absolute: false,
-            scale: 1.0,
+            pixels,
         };
-        let cuts = (wanted.iter()).map(|(slot, most)| shown(*slot, *most, View::Exact));
+        let cuts = (wanted.iter()).map(|(slot, most)| shown(*slot, *most, ShownPixels::All));
         // The first tells whether the pixel is covered, the second whether it is discarded.
-        let whole = [View::Exact, View::Color].map(|view| shown(Slot::R0, usize::MAX, view));
+        let whole =
+            [ShownPixels::All, ShownPixels::Kept].map(|pixels| shown(Slot::R0, usize::MAX, pixels));
         let mut arena = UniformArena::new(device);
         let drawings: Vec<_> = (whole.into_iter().chain(cuts))
             .map(|show| self.drawing(draw, &state, Some(show), size, formats, &mut arena))
             .collect::<Result<_, _>>()?;
         let uniforms = arena.upload(device);
-        let picture = Picture::new(device, size, formats.0, formats.1, false);
+        let picture = Picture::new(device, size, formats.0, formats.1, Depth::Dropped);
         let buffer = readback(device, 16 * drawings.len() as u64);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let corner = pixel.map(|at| at & !1);

@@ -7,18 +7,19 @@ use std::ops::Range;
 use image::RgbaImage;
 
 use super::buffers::{MeshBuffers, UniformArena};
-use super::picture::{COLOR_FORMAT, Picture, depth_format};
+use super::picture::{COLOR_FORMAT, Depth, Picture, depth_format};
 use super::pipeline::Pipelines;
 use super::state::{FixedState, fixed_state};
 use super::texture::{Bound, GpuTexture, Samplers, stage_options};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
-use crate::raster::{RegisterPicture, RenderState, Topology};
+use crate::raster::{MarkSet, RegisterPicture, RenderState, Topology};
 use crate::scene::{
     Output, Pass, PreparedDraw, Progress, RenderOptions, Rendered, Scene, Shader, TargetPicture,
     clear_color,
 };
+use crate::sheet::{self, Dressing, SheetTooLarge, Tile};
 use crate::texture::Texture;
-use crate::wgsl::{self, Options, Points, Resource, Translation, translate};
+use crate::wgsl::{self, Options, Points, Resource, Shown, Translation, translate};
 
 /// Draws scenes with a device. Pipelines and samplers are kept from one picture to the next.
 #[derive(Debug)]
@@ -52,7 +53,7 @@ impl<'d> Renderer<'d> {
         options: &RenderOptions,
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<RgbaImage, GpuError> {
-        Ok(self.frame(scene, options, &[], progress)?.picture)
+        Ok(self.frame(scene, options, &[], progress)?.into_picture())
     }
 
     /// Renders like [`Self::render`], and keeps with the picture what the render targets held, and what is needed to ask
@@ -73,10 +74,7 @@ impl<'d> Renderer<'d> {
     ) -> Result<Frame<'r, 'd>, GpuError> {
         let size = options.size.unwrap_or(scene.size());
         let passes = scene.passes(size);
-        let shown = match &options.show {
-            Some(show) => Some((scene.shown_draw(show)?, show.picture)),
-            None => None,
-        };
+        let shown = scene.shown(options)?;
         let mut frame = Frame::new(self, scene, size);
         frame.passes(&passes, shown, given, progress)?;
         Ok(frame)
@@ -99,7 +97,7 @@ impl<'d> Renderer<'d> {
 }
 
 /// How far a frame is, and who is told.
-struct Steps<'p> {
+pub(super) struct Steps<'p> {
     done: usize,
     total: usize,
     progress: &'p dyn Fn(Progress<'_>),
@@ -114,7 +112,7 @@ fn translation(
     scene: &Scene,
     draw: &PreparedDraw<'_>,
     rendered: &Rendered<'_>,
-    show: Option<RegisterPicture>,
+    show: Option<Shown>,
 ) -> Result<Translation, GpuError> {
     let state = &draw.state;
     let stages = draw.stages.each_ref().map(|stage| {
@@ -157,7 +155,19 @@ pub struct Frame<'r, 'd> {
     meshes: MeshBuffers,
     size: [u32; 2],
     picture: RgbaImage,
+    /// The pictures of registers that were asked for in place of the picture, with the marks that occurred.
+    registers: Vec<(RgbaImage, MarkSet)>,
     targets: Vec<TargetPicture>,
+}
+
+/// A draw and how it is drawn.
+pub(super) struct Planned<'p> {
+    pub(super) draw: &'p PreparedDraw<'p>,
+    pub(super) state: RenderState,
+    /// The register that is drawn in place of the colour.
+    pub(super) show: Option<Shown>,
+    /// The format that it is drawn into.
+    pub(super) format: wgpu::TextureFormat,
 }
 
 /// What a draw is drawn with.
@@ -192,6 +202,7 @@ impl<'r, 'd> Frame<'r, 'd> {
             meshes: MeshBuffers::default(),
             size,
             picture: RgbaImage::new(0, 0),
+            registers: Vec::new(),
             targets: Vec::new(),
         }
     }
@@ -206,9 +217,33 @@ impl<'r, 'd> Frame<'r, 'd> {
         self.renderer.device
     }
 
-    /// The picture.
+    /// The picture; if registers are shown, that of the first.
     pub fn picture(&self) -> &RgbaImage {
-        &self.picture
+        let first = self.registers.first();
+        first.map_or(&self.picture, |(picture, _)| picture)
+    }
+
+    /// The picture alone.
+    fn into_picture(self) -> RgbaImage {
+        let first = self.registers.into_iter().next();
+        first.map_or(self.picture, |(picture, _)| picture)
+    }
+
+    /// The marks that occurred in the pictures of registers, picture by picture.
+    pub fn marks(&self) -> Vec<MarkSet> {
+        self.registers.iter().map(|(_, marks)| *marks).collect()
+    }
+
+    /// The pictures of registers on a sheet. The tiles are those whose pictures were asked for.
+    ///
+    /// # Errors
+    /// [`SheetTooLarge`].
+    pub fn sheet(&self, tiles: &[Tile], dressing: Dressing) -> Result<RgbaImage, SheetTooLarge> {
+        let picture = |number: usize| match self.registers.get(number) {
+            Some((picture, _)) => picture.clone(),
+            None => RgbaImage::new(0, 0),
+        };
+        sheet::compose(tiles, self.size, dressing, &self.marks(), picture)
     }
 
     /// What the render targets held, face by face in the order in which they were drawn.
@@ -225,20 +260,30 @@ impl<'r, 'd> Frame<'r, 'd> {
     fn passes(
         &mut self,
         passes: &[Pass<'_>],
-        shown: Option<(usize, RegisterPicture)>,
+        shown: Option<(usize, &[RegisterPicture])>,
         given: &[TargetPicture],
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<(), GpuError> {
+        let times = |pass: &Pass<'_>| match (pass.output, shown) {
+            (Output::Picture, Some((_, pictures))) => pictures.len(),
+            _ => 1,
+        };
         let mut steps = Steps {
             done: 0,
-            total: passes.iter().map(|pass| pass.draws.len()).sum(),
+            total: (passes.iter().map(|pass| pass.draws.len() * times(pass))).sum(),
             progress,
         };
         for pass in passes {
-            match pass.output {
-                Output::Picture => self.picture = self.pass(pass, shown, &mut steps)?,
-                Output::Target { target, face } => {
-                    let picture = self.pass(pass, None, &mut steps)?;
+            match (pass.output, shown) {
+                (Output::Picture, Some((draw, pictures))) => {
+                    for picture in pictures {
+                        let drawn = self.register_picture(pass, draw, picture, &mut steps)?;
+                        self.registers.push(drawn);
+                    }
+                }
+                (Output::Picture, None) => self.picture = self.pass(pass, &mut steps)?,
+                (Output::Target { target, face }, _) => {
+                    let picture = self.pass(pass, &mut steps)?;
                     let is_this =
                         |given: &&TargetPicture| (given.target, given.face) == (target, face);
                     let seen = given.iter().find(is_this);
@@ -255,62 +300,65 @@ impl<'r, 'd> Frame<'r, 'd> {
         Ok(())
     }
 
-    fn pass(
-        &mut self,
-        pass: &Pass<'_>,
-        shown: Option<(usize, RegisterPicture)>,
-        steps: &mut Steps<'_>,
-    ) -> Result<RgbaImage, GpuError> {
+    fn pass(&mut self, pass: &Pass<'_>, steps: &mut Steps<'_>) -> Result<RgbaImage, GpuError> {
         let device = self.renderer.device;
         let [width, height] = pass.size;
         if width == 0 || height == 0 {
             return Ok(RgbaImage::new(width, height));
         }
+        let planned: Vec<_> = pass.draws.iter().map(Planned::plain).collect();
+        let depth = pass_depth(device, pass);
+        let ready = self.ready(pass, &planned, depth, steps)?;
+        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Dropped);
+        let mut encoder = device.device.create_command_encoder(&Default::default());
+        let mut commands = picture.begin(&mut encoder, Some(clear_bytes(pass)));
+        (ready.iter().flatten()).for_each(|draw| draw.encode(&mut commands));
+        drop(commands);
+        let (bytes, _) = picture.read(device, encoder)?;
+        image(pass.size, bytes)
+    }
+
+    /// Gets the draws of a pass ready; none in the place of one that draws nothing.
+    pub(super) fn ready(
+        &mut self,
+        pass: &Pass<'_>,
+        planned: &[Planned<'_>],
+        depth: wgpu::TextureFormat,
+        steps: &mut Steps<'_>,
+    ) -> Result<Vec<Option<Ready>>, GpuError> {
+        let device = self.renderer.device;
         device.check_size("a picture", pass.size)?;
-        let stencil = pass.draws.iter().any(|draw| draw.state.stencil.enable);
-        let depth = depth_format(device, stencil);
         let target = match pass.output {
             Output::Picture => None,
             Output::Target { target, .. } => self.scene.target(target).map(|info| info.name),
         };
         let mut arena = UniformArena::new(device);
-        let mut drawings = Vec::with_capacity(pass.draws.len());
-        for (place, draw) in pass.draws.iter().enumerate() {
-            let show = shown.filter(|(at, _)| *at == place).map(|(_, show)| show);
-            let mut state = draw.state.clone();
-            // A register covers what is behind it.
-            state.blend.enable &= show.is_none();
-            drawings.push(self.drawing(
-                draw,
-                &state,
-                show,
-                pass.size,
-                (COLOR_FORMAT, depth),
-                &mut arena,
-            )?);
-        }
+        let drawings: Vec<_> = (planned.iter())
+            .map(
+                |Planned {
+                     draw,
+                     state,
+                     show,
+                     format,
+                 }| {
+                    let formats = (*format, depth);
+                    self.drawing(draw, state, *show, pass.size, formats, &mut arena)
+                },
+            )
+            .collect::<Result<_, _>>()?;
         let uniforms = arena.upload(device);
-        let mut ready = Vec::with_capacity(pass.draws.len());
-        for (draw, drawing) in pass.draws.iter().zip(&drawings) {
+        let mut ready = Vec::with_capacity(planned.len());
+        for (Planned { draw, .. }, drawing) in planned.iter().zip(&drawings) {
             (steps.progress)(Progress {
-                done: steps.done,
+                done: steps.done.min(steps.total),
                 total: steps.total,
                 target,
                 draw: draw.name,
             });
-            ready.extend(self.prepare(draw, drawing, &uniforms)?);
+            ready.push(self.prepare(draw, drawing, &uniforms)?);
             steps.done += 1;
         }
-        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, false);
-        let mut encoder = device.device.create_command_encoder(&Default::default());
-        // As eight bits hold it, so that rounding is not left to the device.
-        let clear = clear_color(pass.clear).map(|byte| f64::from(byte) / 255.0);
-        let mut commands = picture.begin(&mut encoder, Some(clear));
-        ready.iter().for_each(|draw| draw.encode(&mut commands));
-        drop(commands);
-        let (bytes, _) = picture.read(device, encoder)?;
-        RgbaImage::from_raw(width, height, bytes)
-            .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
+        Ok(ready)
     }
 
     /// What a draw is drawn with in these states, into a target of this size and these formats of colour and depth; its
@@ -322,7 +370,7 @@ impl<'r, 'd> Frame<'r, 'd> {
         &self,
         draw: &PreparedDraw<'_>,
         state: &RenderState,
-        show: Option<RegisterPicture>,
+        show: Option<Shown>,
         size: [u32; 2],
         (format, depth): (wgpu::TextureFormat, wgpu::TextureFormat),
         arena: &mut UniformArena,
@@ -470,6 +518,35 @@ impl<'r, 'd> Frame<'r, 'd> {
         }
         Ok(bound)
     }
+}
+
+impl<'p> Planned<'p> {
+    /// The draw as it is.
+    pub(super) fn plain(draw: &'p PreparedDraw<'p>) -> Self {
+        Self {
+            draw,
+            state: draw.state.clone(),
+            show: None,
+            format: COLOR_FORMAT,
+        }
+    }
+}
+
+/// The depth format of a pass.
+pub(super) fn pass_depth(device: &Device, pass: &Pass<'_>) -> wgpu::TextureFormat {
+    let stencil = pass.draws.iter().any(|draw| draw.state.stencil.enable);
+    depth_format(device, stencil)
+}
+
+/// What a pass is cleared to: as eight bits hold it, so that rounding is not left to the device.
+pub(super) fn clear_bytes(pass: &Pass<'_>) -> [f64; 4] {
+    clear_color(pass.clear).map(|byte| f64::from(byte) / 255.0)
+}
+
+/// A picture of the bytes that came back.
+pub(super) fn image([width, height]: [u32; 2], bytes: Vec<u8>) -> Result<RgbaImage, GpuError> {
+    RgbaImage::from_raw(width, height, bytes)
+        .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
 }
 
 impl Ready {

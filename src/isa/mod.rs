@@ -14,7 +14,7 @@ pub mod register;
 pub mod version;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use modifier::{ResultModifier, SourceModifier};
 pub use opcode::{Class, Form, Opcode, OpcodeRow};

@@ -223,6 +223,17 @@ impl Opcode {
             .map(|row| row.opcode)
             .find(|opcode| opcode.form(version).is_some())
     }
+
+    /// The opcode that this token number stands for in a shader of this version, whether the version has it or not:
+    /// a number that only one opcode has can mean nothing else.
+    pub fn meant_by(token: u16, version: Version) -> Option<Self> {
+        let mut all = OPCODES.iter().filter(|row| row.token == token);
+        let only = match (all.next(), all.next()) {
+            (Some(only), None) => Some(only.opcode),
+            _ => None,
+        };
+        Self::from_token(token, version).or(only)
+    }
 }
 
 impl Form {

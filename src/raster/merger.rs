@@ -1,9 +1,9 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
-use super::pixel::{PixelBatch, PixelResult};
+use super::pixel::{Attribute, PixelBatch, PixelResult};
 use super::record::{
-    AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, FogSource, Fogged, StencilTested,
-    Watcher,
+    AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, FogSource, Fogged, Nobody,
+    StencilTested, Watcher,
 };
 use super::state::{
     BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, FogState, RenderState,
@@ -90,7 +90,8 @@ pub(super) fn depth_stencil(
             continue;
         }
         let incoming = z[i];
-        let stored = tile.depth[at];
+        let depth = &mut tile.depth[at];
+        let stored = *depth;
         let depth_passes = !state.depth.enable || state.depth.func.passes(incoming, stored);
         let stencil_passes = !state.stencil.enable
             || stencil(
@@ -103,11 +104,11 @@ pub(super) fn depth_stencil(
         if stencil_passes && depth_passes {
             passed |= 1 << i;
             if state.depth.enable && state.depth.write {
-                tile.depth[at] = incoming;
+                *depth = incoming;
             }
         }
         if state.depth.enable && stencil_passes {
-            let after = tile.depth[at];
+            let after = *depth;
             watcher.note(1 << i, |record, _| {
                 record.depth = Some(DepthTested {
                     incoming,
@@ -201,21 +202,24 @@ pub(super) fn merge(
         let lane = 4 * quad;
         let replaced = matches!(timing, DepthTiming::Late { replaced: true, .. });
         // r0 leaves the shader as a colour of 0 to 1; fog and blending come after that.
-        let clamped = |channel: usize, i: usize| unit(shaded.color[channel][lane + i]);
+        let mut color = quad_color(&shaded.color, lane);
         watcher.note(0xf, |record, i| {
             record.shaded = shaded.color.map(|channel| channel[lane + i]);
-            record.clamped = std::array::from_fn(|channel| clamped(channel, i));
+            record.clamped = pixel_of(&color, i);
             record.replaced_depth = replaced.then(|| shaded.depth[lane + i]);
             record.killed = shaded.killed[lane + i];
         });
-        let mut mask = (0..4).fold(0, |mask, i| {
-            mask | u8::from(batch.live[lane + i] && !shaded.killed[lane + i]) << i
-        });
+        let live = |killed: bool| {
+            let is = |i: usize| batch.live[lane + i] && shaded.killed[lane + i] == killed;
+            (0..4).fold(0, |mask, i| mask | u8::from(is(i)) << i)
+        };
+        let mut mask = live(false);
+        if !shaded.shows_killed.is_empty() {
+            show_killed(tile, state, timing, batch, shaded, lane, live(true));
+        }
         if mask == 0 {
             continue;
         }
-        let mut color: QuadColor =
-            std::array::from_fn(|channel| std::array::from_fn(|i| clamped(channel, i)));
         if state.alpha_test.enable {
             let test = &state.alpha_test;
             let passes = |i: usize| test.func.passes(to_byte(color[3][i]), test.reference);
@@ -231,59 +235,143 @@ pub(super) fn merge(
             mask &= passed;
         }
         let at = (batch.x[lane], batch.y[lane]);
-        if let DepthTiming::Late { replaced, .. } = timing {
-            let z = if replaced { &shaded.depth } else { &batch.z };
-            let z: [f32; 4] = std::array::from_fn(|i| unit(z[lane + i]));
+        if let DepthTiming::Late { .. } = timing {
+            let z = late_depths(timing, batch, shaded, lane);
             mask = depth_stencil(tile, state, at, &z, mask, watcher);
         }
         if mask == 0 {
             continue;
         }
-        fog(&mut color, &state.fog, batch, lane, mask, watcher);
+        written += u64::from(mask.count_ones());
         let pixels = tile_pixels(at.0, at.1);
-        if state.blend.enable {
-            let stored = pixels.map(|at| tile.color[at]);
-            let target: QuadColor =
-                std::array::from_fn(|c| std::array::from_fn(|i| f32::from(stored[i][c]) / 255.0));
-            let source = color;
-            color = blend(&state.blend, &source, &target);
-            watcher.note(mask, |record, i| {
-                record.blend = Some(Blended {
-                    source: pixel_of(&source, i),
-                    target: pixel_of(&target, i),
-                    weights: weights(&state.blend, &source, &target, i),
-                    op: state.blend.op,
-                    result: pixel_of(&color, i),
-                });
+        fog(&mut color, &state.fog, batch, lane, mask, watcher);
+        put(&mut tile.color, format, state, pixels, mask, color, watcher);
+        for (number, plane) in tile.more.iter_mut().enumerate() {
+            let own = shaded.more.get(number).map(|own| {
+                let mut own = quad_color(own, lane);
+                fog(&mut own, &state.fog, batch, lane, mask, &mut Nobody);
+                own
             });
+            let color = own.unwrap_or(color);
+            put(plane, format, state, pixels, mask, color, &mut Nobody);
         }
-        // Without an alpha channel there is a constant 1, which nothing changes.
-        let writes = |channel: usize| {
-            state.color_mask.writes(channel) && !(channel == 3 && format == ColorFormat::X8R8G8B8)
-        };
-        for (i, at) in pixels.into_iter().enumerate() {
-            if mask >> i & 1 == 0 {
-                continue;
-            }
-            written += 1;
-            let pixel = &mut tile.color[at];
-            for (channel, stored) in pixel.iter_mut().enumerate() {
-                if writes(channel) {
-                    *stored = to_byte(color[channel][i]);
-                }
-            }
-        }
+    }
+    written
+}
+
+/// The colours of the quad whose first lane this is, each in 0 to 1.
+#[inline]
+fn quad_color(color: &Attribute, lane: usize) -> QuadColor {
+    std::array::from_fn(|c| std::array::from_fn(|i| unit(color[c][lane + i])))
+}
+
+/// The depths of a quad as the tests after the shader take them.
+#[inline]
+fn late_depths(
+    timing: DepthTiming,
+    batch: &PixelBatch,
+    shaded: &PixelResult,
+    lane: usize,
+) -> [f32; 4] {
+    let z = match timing {
+        DepthTiming::Late { replaced: true, .. } => &shaded.depth,
+        _ => &batch.z,
+    };
+    std::array::from_fn(|i| unit(z[lane + i]))
+}
+
+/// Blends a quad's colours with what a plane of its tile holds, and writes those of the pixels in `mask`.
+#[inline]
+fn put(
+    stored: &mut [[u8; 4]],
+    format: ColorFormat,
+    state: &RenderState,
+    pixels: [usize; 4],
+    mask: u8,
+    mut color: QuadColor,
+    watcher: &mut impl Watcher,
+) {
+    if state.blend.enable {
+        let stored = pixels.map(|at| stored[at]);
+        let target: QuadColor =
+            std::array::from_fn(|c| std::array::from_fn(|i| f32::from(stored[i][c]) / 255.0));
+        let source = color;
+        color = blend(&state.blend, &source, &target);
         watcher.note(mask, |record, i| {
-            let color = pixel_of(&color, i);
-            record.write = Some(ColorWritten {
-                color,
-                bytes: color.map(to_byte),
-                mask: state.color_mask,
-                written: std::array::from_fn(writes),
+            record.blend = Some(Blended {
+                source: pixel_of(&source, i),
+                target: pixel_of(&target, i),
+                weights: weights(&state.blend, &source, &target, i),
+                op: state.blend.op,
+                result: pixel_of(&color, i),
             });
         });
     }
-    written
+    // Without an alpha channel there is a constant 1, which nothing changes.
+    let writes = |channel: usize| {
+        state.color_mask.writes(channel) && !(channel == 3 && format == ColorFormat::X8R8G8B8)
+    };
+    let whole = (0..4).all(writes);
+    for (i, at) in pixels.into_iter().enumerate() {
+        if mask >> i & 1 == 0 {
+            continue;
+        }
+        if whole {
+            stored[at] = color.map(|channel| to_byte(channel[i]));
+            continue;
+        }
+        for (channel, stored) in stored[at].iter_mut().enumerate() {
+            if writes(channel) {
+                *stored = to_byte(color[channel][i]);
+            }
+        }
+    }
+    watcher.note(mask, |record, i| {
+        let color = pixel_of(&color, i);
+        record.write = Some(ColorWritten {
+            color,
+            bytes: color.map(to_byte),
+            mask: state.color_mask,
+            written: std::array::from_fn(writes),
+        });
+    });
+}
+
+/// Puts killed pixels into the planes that show them, where depth and stencil would let them through.
+fn show_killed(
+    tile: &mut Tile,
+    state: &RenderState,
+    timing: DepthTiming,
+    batch: &PixelBatch,
+    shaded: &PixelResult,
+    lane: usize,
+    killed: u8,
+) {
+    let (x, y) = (batch.x[lane], batch.y[lane]);
+    let z = late_depths(timing, batch, shaded, lane);
+    let pixels = tile_pixels(x, y);
+    let mut seen = depth_only(tile, state, x, y, &z, killed);
+    if state.stencil.enable {
+        let stencil = &state.stencil;
+        let reference = stencil.reference & stencil.mask;
+        for (i, at) in pixels.into_iter().enumerate() {
+            if !(stencil.func).passes(reference, tile.stencil[at] & stencil.mask) {
+                seen &= !(1 << i);
+            }
+        }
+    }
+    for number in &shaded.shows_killed {
+        let plane = match number.checked_sub(1) {
+            None => Some(&mut tile.color),
+            Some(further) => tile.more.get_mut(further),
+        };
+        let color = quad_color(shaded.plane(*number), lane);
+        if let Some(plane) = plane {
+            for (i, at) in (pixels.into_iter().enumerate()).filter(|(i, _)| seen >> i & 1 == 1) {
+                plane[at] = color.map(|channel| to_byte(channel[i]));
+            }
+        }
+    }
 }
 
 /// Mixes fog into the colours of the quad whose first lane this is. `mask`: the pixels that count.
@@ -299,13 +387,11 @@ pub(super) fn fog(
     if !state.enable {
         return;
     }
-    let factors: [f32; 4] = std::array::from_fn(|i| fog_factor(state, batch, lane + i));
-    let clear = factors.map(fog_unit);
-    let full = state.color.map(unit);
+    let clear: [f32; 4] = std::array::from_fn(|i| fog_unit(fog_factor(state, batch, lane + i)));
     let before = *color;
-    for (channel, fog) in color.iter_mut().zip(full) {
+    for (channel, fog) in color.iter_mut().zip(state.color) {
         for (value, clear) in channel.iter_mut().zip(clear) {
-            *value = clear * *value + (1.0 - clear) * fog;
+            *value = clear * *value + (1.0 - clear) * unit(fog);
         }
     }
     watcher.note(mask, |record, i| {
@@ -319,9 +405,9 @@ pub(super) fn fog(
                     distance: fog_distance(state, batch, lane + i),
                 },
             },
-            factor: factors[i],
+            factor: fog_factor(state, batch, lane + i),
             clear: clear[i],
-            color: full,
+            color: state.color.map(unit),
             before: rgb(&before),
             after: rgb(color),
         });
@@ -371,10 +457,14 @@ fn factors(state: &BlendState) -> [BlendFactor; 2] {
 
 /// Source and target, joined; in 0 to 1.
 pub(super) fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) -> QuadColor {
-    let factors = factors(state);
-    std::array::from_fn(|channel| {
+    let [source_factor, target_factor] = factors(state);
+    let mut joined = *source;
+    for (channel, joined) in joined.iter_mut().enumerate() {
         let join = |op: fn(f32, f32) -> f32| {
-            let [of_source, of_target] = factors.map(|side| factor(side, channel, source, target));
+            let (of_source, of_target) = (
+                factor(source_factor, channel, source, target),
+                factor(target_factor, channel, source, target),
+            );
             std::array::from_fn(|i| {
                 unit(op(
                     source[channel][i] * of_source[i],
@@ -382,14 +472,15 @@ pub(super) fn blend(state: &BlendState, source: &QuadColor, target: &QuadColor) 
                 ))
             })
         };
-        match state.op {
+        *joined = match state.op {
             BlendOp::Add => join(|s, d| s + d),
             BlendOp::Subtract => join(|s, d| s - d),
             BlendOp::RevSubtract => join(|s, d| d - s),
             BlendOp::Min => std::array::from_fn(|i| source[channel][i].min(target[channel][i])),
             BlendOp::Max => std::array::from_fn(|i| source[channel][i].max(target[channel][i])),
-        }
-    })
+        };
+    }
+    joined
 }
 
 /// What [`blend`] multiplies both sides of a pixel by, if it does.

@@ -4,18 +4,21 @@
 //! [`draw`] takes vertices as the vertex shader left them and a [`PixelShader`], of which it only knows what it reads and
 //! what it may do. How either is executed is none of its business. [`cover`] answers for one pixel which primitives reach
 //! it and with which inputs, by the same set-up and interpolation; [`LoneTarget`] draws them again, and its [`MergeRecord`]s
-//! tell stage by stage what the merger did. [`PixelProgram`] and [`shade_vertices`] put kernels in the places of both.
+//! tell stage by stage what the merger did. [`PixelProgram`] and [`shade_vertices`] put kernels in the places of both,
+//! [`PictureProgram`] one whose registers are pictured.
 //!
 //! Files, in the order of the data: `assemble` (vertices to primitives), `clip`, `setup` and `points_lines` (primitives to
 //! what has edges and planes on the screen), `scan` (which pixels), `interpolate` (pixel inputs), `tiles` (the loop over
-//! all of it), `merger` (into the target) and its `record`, `cover`, `replay`.
+//! all of it), `merger` (into the target) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
 
 mod assemble;
+mod capture;
 mod clip;
 mod cover;
 mod interpolate;
 mod merger;
 mod names;
+mod picture;
 mod pixel;
 mod points_lines;
 mod programmable;
@@ -35,12 +38,12 @@ use glam::Vec4;
 use crate::semantics::saturate as unit;
 
 pub use assemble::{DrawError, Topology};
+pub use capture::PictureProgram;
 pub use cover::{Fragment, Interpolation, ScreenPosition, cover};
 pub use names::UnknownName;
+pub use picture::{Look, Mark, MarkSet, RegisterPicture, Tone, View};
 pub use pixel::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader};
-pub use programmable::{
-    PixelProgram, PixelTrace, RegisterPicture, View, shade_vertices, vertex_outputs,
-};
+pub use programmable::{PixelProgram, PixelTrace, shade_vertices, vertex_outputs};
 pub use record::{
     AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, Fate, FogSource, Fogged,
     MergeRecord, StencilTested, Stored,
@@ -51,7 +54,7 @@ pub use state::{
     FillMode, FogDistance, FogMode, FogState, PointState, RenderState, ShadeMode, StencilOp,
     StencilState, Viewport,
 };
-pub use target::{ColorFormat, Target, TargetTooLarge};
+pub use target::{ColorFormat, Target, TargetTooLarge, TooManyPlanes};
 pub use tiles::{Statistics, draw};
 
 /// One vertex as the vertex shader left it. Colours and fog are taken into 0 to 1 here, not by the shader.

@@ -74,6 +74,12 @@ impl PixelBatch {
 pub struct PixelResult {
     /// `r0`. The merger takes it into 0 to 1.
     pub color: Attribute,
+    /// What goes into the further planes of a target that was [split](super::Target::split). Those that are missing here
+    /// take the colour.
+    pub more: Vec<Attribute>,
+    /// The planes, the first is 0, into which killed pixels go, too, where they pass the depth and stencil tests. They
+    /// change nothing else.
+    pub shows_killed: Vec<usize>,
     /// Pixels that `texkill` took out.
     pub killed: [bool; LANES],
     /// Depths that replace the interpolated ones, if [`PixelShader::writes_depth`].
@@ -85,9 +91,31 @@ impl PixelResult {
     pub fn new() -> Self {
         Self {
             color: [[0.0; LANES]; 4],
+            more: Vec::new(),
+            shows_killed: Vec::new(),
             killed: [false; LANES],
             depth: [0.0; LANES],
         }
+    }
+
+    /// What goes into a plane of the target.
+    #[inline]
+    pub(super) fn plane(&self, number: usize) -> &Attribute {
+        let further = number.checked_sub(1).and_then(|at| self.more.get(at));
+        further.unwrap_or(&self.color)
+    }
+
+    /// The same, to be written; none beyond the [planes](Self::planes) that there are.
+    pub(super) fn plane_mut(&mut self, number: usize) -> Option<&mut Attribute> {
+        match number.checked_sub(1) {
+            None => Some(&mut self.color),
+            Some(at) => self.more.get_mut(at),
+        }
+    }
+
+    /// Makes room for so many planes.
+    pub(super) fn planes(&mut self, count: usize) {
+        self.more.resize(count.saturating_sub(1), [[0.0; LANES]; 4]);
     }
 }
 

@@ -74,54 +74,7 @@ pub fn vertex_outputs(kernel: &Kernel, of: impl Fn(Slot) -> [f32; 4]) -> Vertex 
 
 thread_local! {
     /// The registers of a batch, kept from one to the next: a kernel loads what it reads before it reads it.
-    static MACHINE: RefCell<Machine<LANES>> = RefCell::new(Machine::new());
-}
-
-/// A register shown instead of the pixel's colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RegisterPicture {
-    /// The register.
-    pub slot: Slot,
-    /// How many instructions run before it is looked at; `usize::MAX`: all.
-    pub instructions: usize,
-    /// What of it is shown.
-    pub view: View,
-    /// Whether the absolute value is shown.
-    pub absolute: bool,
-    /// What the value is multiplied by.
-    pub scale: f32,
-}
-
-/// What of a register is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
-    /// x, y and z as red, green and blue.
-    #[default]
-    Color,
-    /// One component (0 to 3) as grey.
-    Component(usize),
-    /// The length of (x, y, z) as grey.
-    Magnitude,
-    /// All four components as they are, also of pixels that `texkill` discards: for comparisons, not for eyes.
-    Exact,
-}
-
-impl RegisterPicture {
-    /// The colour that stands for a register's content.
-    fn color(&self, register: [f32; 4]) -> [f32; 4] {
-        let [x, y, z, w] = register;
-        let shown = match self.view {
-            View::Color => [x, y, z, 1.0],
-            View::Component(c) => [register[c & 3]; 4],
-            View::Magnitude => [Vec4::new(x, y, z, 0.0).length(); 4],
-            View::Exact => [x, y, z, w],
-        };
-        let [r, g, b, a] = shown.map(|value| {
-            let value = if self.absolute { value.abs() } else { value };
-            value * self.scale
-        });
-        [r, g, b, if self.view == View::Exact { a } else { 1.0 }]
-    }
+    pub(super) static MACHINE: RefCell<Machine<LANES>> = RefCell::new(Machine::new());
 }
 
 /// A pixel shader with everything that is set while it runs.
@@ -130,8 +83,6 @@ pub struct PixelProgram<'a> {
     pub kernel: &'a Kernel,
     /// Its textures, stage states and constants.
     pub environment: &'a Environment<'a>,
-    /// A register to show instead of the colour.
-    pub picture: Option<RegisterPicture>,
 }
 
 /// The registers of one pixel while its shader runs.
@@ -143,48 +94,73 @@ pub struct PixelTrace {
     pub trace: Trace,
 }
 
-/// Sees nothing.
-struct Nothing;
-
-impl Observer<LANES> for Nothing {
-    fn wrote(&mut self, _: usize, _: &Lanes<LANES>, _: &Lanes<LANES>) {}
-    fn killed(&mut self, _: usize, _: &[bool; LANES]) {}
-}
-
 impl PixelProgram<'_> {
-    fn texcoords(&self) -> impl Iterator<Item = (usize, Slot)> {
-        let shown = self.picture.map(|p| p.slot);
+    /// The coordinate sets that the shader reads, and those among some other slots.
+    fn texcoords(&self, others: &[Slot]) -> impl Iterator<Item = (usize, Slot)> {
         (0..SETS)
             .filter_map(|i| Some((i, Slot::texcoord(i)?)))
-            .filter(move |(_, slot)| Some(*slot) == shown || !self.kernel.read(*slot).is_empty())
+            .filter(move |(_, slot)| others.contains(slot) || !self.kernel.read(*slot).is_empty())
     }
 
-    fn color(&self, index: usize) -> Option<Slot> {
-        let shown = self.picture.map(|p| p.slot);
+    /// An interpolated colour, if the shader reads it or it is among some other slots.
+    fn color(&self, index: usize, others: &[Slot]) -> Option<Slot> {
         Slot::input(index)
-            .filter(|slot| Some(*slot) == shown || !self.kernel.read(*slot).is_empty())
+            .filter(|slot| others.contains(slot) || !self.kernel.read(*slot).is_empty())
+    }
+
+    /// What is to be interpolated for the shader, and for whoever looks at these slots.
+    pub(super) fn inputs_with(&self, others: &[Slot]) -> PixelInputs {
+        PixelInputs {
+            diffuse: self.color(0, others).is_some(),
+            specular: self.color(1, others).is_some(),
+            texcoords: (self.texcoords(others)).fold(0, |bits, (i, _)| bits | 1 << i),
+        }
     }
 
     /// Puts the inputs that the shader reads, of the first `N` lanes of a batch, into their registers: of a
     /// [`Machine<4>`](Machine) the first quad.
     pub fn load<const N: usize>(&self, machine: &mut Machine<N>, batch: &PixelBatch) {
-        for (i, slot) in self.texcoords() {
-            *machine.register_mut(slot) = lanes(&batch.texcoords[i], |value| value);
+        self.load_with(machine, batch, &[]);
+    }
+
+    /// The same, and those that whoever looks at these slots wants to see.
+    pub(super) fn load_with<const N: usize>(
+        &self,
+        machine: &mut Machine<N>,
+        batch: &PixelBatch,
+        others: &[Slot],
+    ) {
+        for (i, slot) in self.texcoords(others) {
+            fill(machine.register_mut(slot), &batch.texcoords[i], |value| {
+                value
+            });
         }
         for (i, color) in [&batch.diffuse, &batch.specular].into_iter().enumerate() {
-            if let Some(slot) = self.color(i) {
+            if let Some(slot) = self.color(i, others) {
                 // Interpolated colours reach the shader in 0 to 1.
-                *machine.register_mut(slot) = lanes(color, semantics::saturate);
+                fill(machine.register_mut(slot), color, semantics::saturate);
             }
         }
+    }
+
+    /// Runs the shader on what was loaded.
+    pub(super) fn run(&self, machine: &mut Machine<LANES>, observer: &mut impl Observer<LANES>) {
+        machine.run_observed(self.kernel, self.environment, usize::MAX, observer);
+    }
+
+    /// Takes over what decides whether pixels are seen.
+    pub(super) fn finish(machine: &Machine<LANES>, out: &mut PixelResult) {
+        out.killed = *machine.killed();
+        // Only looked at if the shader writes it.
+        out.depth = machine.register(Slot::DEPTH)[0];
     }
 
     /// Runs the shader for a batch and records one lane.
     pub fn trace(&self, batch: &PixelBatch, lane: usize) -> PixelTrace {
         let mut machine = Machine::<LANES>::new();
         self.load(&mut machine, batch);
-        let sets = self.texcoords().map(|(_, slot)| slot);
-        let colors = (0..2).filter_map(|i| self.color(i));
+        let sets = self.texcoords(&[]).map(|(_, slot)| slot);
+        let colors = (0..2).filter_map(|i| self.color(i, &[]));
         let inputs = (sets.chain(colors))
             .map(|slot| (slot, machine.lane(slot, lane)))
             .collect();
@@ -197,42 +173,15 @@ impl PixelProgram<'_> {
 
 impl PixelShader for PixelProgram<'_> {
     fn inputs(&self) -> PixelInputs {
-        PixelInputs {
-            diffuse: self.color(0).is_some(),
-            specular: self.color(1).is_some(),
-            texcoords: self.texcoords().fold(0, |bits, (i, _)| bits | 1 << i),
-        }
+        self.inputs_with(&[])
     }
 
     fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {
         MACHINE.with_borrow_mut(|machine| {
-            if let Some(picture) = &self.picture {
-                // A register that the shader never touches is shown as zero, not as the last batch left it.
-                machine.load(picture.slot, [0.0; 4]);
-            }
             self.load(machine, batch);
-            match &self.picture {
-                None => {
-                    machine.run(self.kernel, self.environment);
-                    out.color = *machine.register(Slot::R0);
-                }
-                Some(picture) => {
-                    let most = picture.instructions;
-                    machine.run_observed(self.kernel, self.environment, most, &mut Nothing);
-                    for lane in 0..LANES {
-                        let color = picture.color(machine.lane(picture.slot, lane));
-                        for (component, value) in out.color.iter_mut().zip(color) {
-                            component[lane] = value;
-                        }
-                    }
-                }
-            }
-            if !matches!(&self.picture, Some(picture) if picture.view == View::Exact) {
-                out.killed = *machine.killed();
-            }
-            if self.kernel.writes_depth() {
-                out.depth = machine.register(Slot::DEPTH)[0];
-            }
+            machine.run(self.kernel, self.environment);
+            out.color = *machine.register(Slot::R0);
+            Self::finish(machine, out);
         });
     }
 
@@ -245,9 +194,16 @@ impl PixelShader for PixelProgram<'_> {
     }
 }
 
-/// The first lanes of an attribute; lanes that it does not have are 0.
+/// Puts the first lanes of an attribute into a register.
 #[inline]
-fn lanes<const N: usize>(attribute: &Attribute, finish: impl Fn(f32) -> f32) -> Lanes<N> {
-    let of = |component: &[f32; LANES], lane| component.get(lane).copied().map_or(0.0, &finish);
-    (attribute.each_ref()).map(|component| std::array::from_fn(|lane| of(component, lane)))
+fn fill<const N: usize>(
+    register: &mut Lanes<N>,
+    attribute: &Attribute,
+    finish: impl Fn(f32) -> f32,
+) {
+    for (values, given) in register.iter_mut().zip(attribute) {
+        for (value, given) in values.iter_mut().zip(given) {
+            *value = finish(*given);
+        }
+    }
 }

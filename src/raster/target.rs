@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use image::{Rgba, RgbaImage};
+use image::RgbaImage;
 
 /// The side of a tile in pixels. Even, so that no 2×2 quad lies in two tiles.
 pub(super) const TILE: u32 = 64;
@@ -44,14 +44,45 @@ impl fmt::Display for TargetTooLarge {
 
 impl std::error::Error for TargetTooLarge {}
 
+/// More planes than a target of a size can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TooManyPlanes {
+    /// How many were asked for.
+    pub planes: usize,
+    /// The size of the target.
+    pub size: [u32; 2],
+}
+
+impl fmt::Display for TooManyPlanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            planes,
+            size: [width, height],
+        } = self;
+        write!(
+            f,
+            "{planes} pictures of {width}×{height} pixels are too many: at most {} pictures and {} pixels in all",
+            Target::MAX_PLANES,
+            Target::MAX_PIXELS
+        )
+    }
+}
+
+impl std::error::Error for TooManyPlanes {}
+
 /// One tile; pixels row by row.
 pub(super) struct Tile {
     pub(super) color: Box<[[u8; 4]]>,
+    /// The colours of the further planes.
+    pub(super) more: Vec<Box<[[u8; 4]]>>,
     pub(super) depth: Box<[f32]>,
     pub(super) stencil: Box<[u8]>,
 }
 
 /// A colour, depth and stencil buffer of one size. Pixel (0, 0) is the upper left one.
+///
+/// The colour can be [split](Self::split) into planes: several pictures of what is drawn, of which only a shader that knows
+/// of them makes different things. They share depth and stencil.
 pub struct Target {
     width: u32,
     height: u32,
@@ -64,6 +95,21 @@ impl Target {
     pub const MAX_SIDE: u32 = 16384;
     /// The largest number of pixels, which take 9 bytes each. Sides count as rounded up to whole tiles of 64.
     pub const MAX_PIXELS: u64 = 1 << 26;
+    /// The largest number of planes. Together they have at most [`Self::MAX_PIXELS`], 4 bytes each.
+    pub const MAX_PLANES: usize = 512;
+
+    /// Whether a target of a size can be [split](Self::split) into so many planes, without making one.
+    ///
+    /// # Errors
+    /// [`TooManyPlanes`] if not.
+    pub fn check_planes(size: [u32; 2], planes: usize) -> Result<(), TooManyPlanes> {
+        let [across, down] = size.map(|side| u64::from(side.div_ceil(TILE)));
+        let pixels = (across * down).saturating_mul((TILE_PIXELS * planes) as u64);
+        match planes > Self::MAX_PLANES || (planes > 1 && pixels > Self::MAX_PIXELS) {
+            true => Err(TooManyPlanes { planes, size }),
+            false => Ok(()),
+        }
+    }
 
     /// A target that is transparent black, at depth 1 and stencil 0. A size of 0 is a target without pixels.
     ///
@@ -83,6 +129,7 @@ impl Target {
         let tiles = (0..count)
             .map(|_| Tile {
                 color: vec![color; TILE_PIXELS].into_boxed_slice(),
+                more: Vec::new(),
                 depth: vec![1.0; TILE_PIXELS].into_boxed_slice(),
                 stencil: vec![0; TILE_PIXELS].into_boxed_slice(),
             })
@@ -115,7 +162,9 @@ impl Target {
     pub fn clear(&mut self, color: Option<[u8; 4]>, depth: Option<f32>, stencil: Option<u8>) {
         for tile in &mut self.tiles {
             if let Some(color) = color {
-                tile.color.fill(clear_color(self.format, color));
+                let color = clear_color(self.format, color);
+                tile.color.fill(color);
+                tile.more.iter_mut().for_each(|plane| plane.fill(color));
             }
             if let Some(depth) = depth {
                 tile.depth.fill(super::unit(depth));
@@ -170,11 +219,49 @@ impl Target {
             && flat(around(y, self.height).map(|y| depth(x, y)))
     }
 
-    /// The colours as a picture.
+    /// Splits the colour into so many planes, which all hold what was drawn so far. What is drawn from now on goes into
+    /// each of them: what [`PixelResult::more`](super::PixelResult::more) has for it, or else the colour.
+    ///
+    /// # Errors
+    /// [`TooManyPlanes`] beyond [`Self::MAX_PLANES`], and beyond [`Self::MAX_PIXELS`] in all of them; nothing changes then.
+    pub fn split(&mut self, planes: usize) -> Result<(), TooManyPlanes> {
+        Self::check_planes([self.width, self.height], planes)?;
+        for tile in &mut self.tiles {
+            tile.more = vec![tile.color.clone(); planes.saturating_sub(1)];
+        }
+        Ok(())
+    }
+
+    /// The colours as a picture: of the first plane if there are several.
     pub fn to_image(&self) -> RgbaImage {
+        self.plane(0)
+    }
+
+    /// The colours of a plane as a picture; of a plane that there is not, black.
+    pub fn plane(&self, number: usize) -> RgbaImage {
         let mut picture = RgbaImage::new(self.width, self.height);
-        for (x, y, pixel) in picture.enumerate_pixels_mut() {
-            *pixel = Rgba(self.color(x, y).unwrap_or_default());
+        let across = self.tiles_across() as usize;
+        let row_bytes = 4 * self.width as usize;
+        // A picture without columns has no rows either.
+        let rows = picture.chunks_exact_mut(row_bytes.max(1));
+        for (y, row) in (0..self.height).zip(rows) {
+            let tiles = self.tiles.iter().skip((y / TILE) as usize * across);
+            let within = (y % TILE * TILE) as usize;
+            for (tile, pixels) in tiles.zip(row.chunks_mut(4 * TILE as usize)) {
+                let plane = match number.checked_sub(1) {
+                    None => Some(&tile.color),
+                    Some(further) => tile.more.get(further),
+                };
+                let stored = plane.and_then(|plane| plane.get(within..within + TILE as usize));
+                for (pixel, stored) in pixels
+                    .as_chunks_mut()
+                    .0
+                    .iter_mut()
+                    .zip(stored.into_iter().flatten())
+                {
+                    *pixel = *stored;
+                }
+            }
         }
         picture
     }
@@ -242,6 +329,25 @@ mod tests {
         assert!(!target.inside(9, 0) && !target.inside(0, 4));
         let narrow = Target::new(2, 4, ColorFormat::A8R8G8B8).unwrap();
         assert!(!narrow.inside(0, 1));
+    }
+
+    #[test]
+    fn planes_begin_with_what_was_drawn() {
+        let mut target = Target::new(130, 65, ColorFormat::A8R8G8B8).unwrap();
+        target.clear(Some([1, 2, 3, 4]), None, None);
+        target.split(3).unwrap();
+        for plane in 0..3 {
+            assert_eq!(target.plane(plane).get_pixel(129, 64).0, [1, 2, 3, 4]);
+        }
+        assert_eq!(target.plane(3).get_pixel(0, 0).0, [0; 4]);
+        target.clear(Some([9; 4]), None, None);
+        assert_eq!(target.plane(2).get_pixel(64, 0).0, [9; 4]);
+        // 3×2 tiles of 4096 pixels: 2²⁶ / 24576 = 2730 would fit, but 512 are the most.
+        assert!(target.split(512).is_ok() && target.split(513).is_err());
+        let mut large = Target::new(1024, 1024, ColorFormat::A8R8G8B8).unwrap();
+        let refused = large.split(65).unwrap_err().to_string();
+        assert!(refused.contains("65 pictures of 1024×1024"), "{refused}");
+        assert!(large.tiles[0].more.is_empty());
     }
 
     #[test]

@@ -68,7 +68,7 @@ impl Rendering<'_> {
             let call = shaded.call(&draw.state, size);
             let fragments =
                 cover(&call, size.into(), (x, y)).map_err(|error| refused(draw, error))?;
-            let shader = shaded.program(None);
+            let shader = shaded.program();
             for fragment in fragments {
                 let merge = pixel.draw(&draw.state, &fragment, &shader);
                 if events.len() == MAX_EVENTS {

@@ -6,7 +6,7 @@
 //!
 //! Files, in the order of the data: `section` and `error` (tables key by key, problems with their places), `resolve` and
 //! `files` (bytes), `load` (the whole), `transform`, `mesh`, `texture`, `shader`, `constants`, `state`, `draw`, `target`
-//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `history` (of a pixel); `generate` makes pictures by formula.
+//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `history` (of a pixel), `show` (which registers to picture); `generate` makes pictures by formula.
 
 mod constants;
 pub(crate) mod draw;
@@ -23,6 +23,7 @@ mod rendered;
 mod resolve;
 pub(crate) mod section;
 pub(crate) mod shader;
+mod show;
 pub(crate) mod state;
 mod target;
 pub(crate) mod texture;
@@ -52,6 +53,7 @@ pub use rendered::ShadedDraw;
 pub(crate) use rendered::{Rendered, clear_color};
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};
 pub use shader::Shader;
+pub use show::{ShowExpression, WrongShow};
 pub use target::MAX_TARGET_SIDE;
 
 /// How a scene file is read.

@@ -7,7 +7,11 @@ use image::RgbaImage;
 use super::Scene;
 use super::prepare::{Output, Pass, PreparedDraw};
 use super::rendered::{Rendered, ShadedDraw, ShadedMeshes, clear_color};
-use crate::raster::{ColorFormat, DrawError, RegisterPicture, Target, TargetTooLarge, draw};
+use crate::raster::{
+    ColorFormat, ColorMask, DrawError, MarkSet, PictureProgram, PixelShader, RegisterPicture,
+    RenderState, Target, TargetTooLarge, TooManyPlanes, draw,
+};
+use crate::sheet::{self, Dressing, SheetTooLarge, Tile};
 use crate::texture::TextureError;
 
 /// How a scene is rendered.
@@ -15,18 +19,30 @@ use crate::texture::TextureError;
 pub struct RenderOptions {
     /// Width and height of the picture, instead of those of the scene.
     pub size: Option<[u32; 2]>,
-    /// A register to show instead of the colour of one draw.
+    /// Registers to show instead of the colour of one draw.
     pub show: Option<Show>,
 }
 
-/// A register of one draw, shown in the picture. The draw then covers what is behind it: it is not blended, fogged or
-/// alpha tested. All other draws stay as they are.
+/// Registers of one draw, each shown in a picture of its own. In these the draw covers what is behind it: it is not
+/// blended, fogged, alpha tested or kept from any channel. All other draws stay as they are.
 #[derive(Clone, Debug)]
 pub struct Show {
     /// The draw by name; `None`: the last of the picture.
     pub draw: Option<String>,
-    /// The register of its pixel shader, and how it is shown.
-    pub picture: RegisterPicture,
+    /// The registers of its pixel shader, and how they are shown. Without any the draw stays as it is, too.
+    pub pictures: Vec<RegisterPicture>,
+}
+
+impl Show {
+    /// The states of the draw while its registers are shown.
+    pub(crate) fn state(state: &RenderState) -> RenderState {
+        let mut state = state.clone();
+        state.blend.enable = false;
+        state.fog.enable = false;
+        state.alpha_test.enable = false;
+        state.color_mask = ColorMask::ALL;
+        state
+    }
 }
 
 /// One face of a render target, as a picture.
@@ -82,6 +98,8 @@ pub enum RenderError {
         /// Why.
         error: TextureError,
     },
+    /// Too many registers are to be shown.
+    Planes(TooManyPlanes),
     /// The picture has no draw of which a register could be shown.
     NoSuchDraw {
         /// The name that was asked for; `None`: any.
@@ -95,6 +113,7 @@ impl fmt::Display for RenderError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Size(error) => error.fmt(f),
+            Self::Planes(error) => error.fmt(f),
             Self::Draw { draw, error } => write!(f, "draw `{draw}`: {error}"),
             Self::Texture { target, error } => write!(f, "render target `{target}`: {error}"),
             Self::NoSuchDraw { name: None, .. } => f.write_str("the picture has no draw to show"),
@@ -117,7 +136,7 @@ impl Scene {
     /// `progress` is called before each draw.
     ///
     /// # Errors
-    /// [`RenderError`] for a size that is refused, and for a draw to show that there is not.
+    /// [`RenderError`] for a size that is refused, for a draw to show that there is not, and for too many registers.
     pub fn render(
         &self,
         options: &RenderOptions,
@@ -139,13 +158,11 @@ impl Scene {
         let picture = Target::new(width, height, ColorFormat::A8R8G8B8);
         let mut picture = picture.map_err(RenderError::Size)?;
         let passes = self.passes([width, height]);
-        let shown = match &options.show {
-            Some(show) => Some((self.shown_draw(show)?, show.picture)),
-            None => None,
-        };
+        let shown = self.shown(options)?;
         let mut renderer = Renderer {
             scene: self,
             rendered: Rendered::new(self),
+            marks: Vec::new(),
             done: 0,
             total: passes.iter().map(|pass| pass.draws.len()).sum(),
             progress,
@@ -168,21 +185,44 @@ impl Scene {
             scene: self,
             picture,
             targets,
+            marks: renderer.marks,
             rendered: renderer.rendered,
             shaded: ShadedMeshes::new(&passes),
             passes,
         })
     }
 
-    /// Where in the picture's list the draw stands whose register is shown.
-    pub(crate) fn shown_draw(&self, show: &Show) -> Result<usize, RenderError> {
+    /// The draw whose registers are shown, by its place in the picture's list, and which; none if none are.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSuchDraw`] and [`RenderError::Planes`].
+    pub(crate) fn shown<'o>(
+        &self,
+        options: &'o RenderOptions,
+    ) -> Result<Option<(usize, &'o [RegisterPicture])>, RenderError> {
+        let Some(show) = options.show.as_ref() else {
+            return Ok(None);
+        };
+        let draw = self.shown_draw(show.draw.as_deref())?;
+        let size = options.size.unwrap_or(self.size);
+        Target::check_planes(size, show.pictures.len()).map_err(RenderError::Planes)?;
+        let pictures = Some(show.pictures.as_slice()).filter(|pictures| !pictures.is_empty());
+        Ok(pictures.map(|pictures| (draw, pictures)))
+    }
+
+    /// Where among the draws of the picture, the last of [`Self::passes`], the one with a name stands; without a name the
+    /// last.
+    ///
+    /// # Errors
+    /// [`RenderError::NoSuchDraw`].
+    pub fn shown_draw(&self, draw: Option<&str>) -> Result<usize, RenderError> {
         let name = |number: &usize| self.draws.get(*number).map(|draw| draw.name.as_str());
-        let found = match &show.draw {
+        let found = match draw {
             Some(wanted) => (self.picture.iter()).rposition(|number| name(number) == Some(wanted)),
             None => self.picture.len().checked_sub(1),
         };
         found.ok_or_else(|| RenderError::NoSuchDraw {
-            name: show.draw.clone(),
+            name: draw.map(str::to_owned),
             known: (self.picture.iter().filter_map(name))
                 .map(str::to_owned)
                 .collect(),
@@ -195,6 +235,7 @@ pub struct Rendering<'a> {
     scene: &'a Scene,
     picture: Target,
     targets: Vec<DrawnTarget>,
+    marks: Vec<MarkSet>,
     rendered: Rendered<'a>,
     passes: Vec<Pass<'a>>,
     shaded: ShadedMeshes,
@@ -206,9 +247,23 @@ impl<'a> Rendering<'a> {
         self.scene
     }
 
-    /// The picture.
+    /// The picture. If registers are shown it has a plane for each.
     pub fn picture(&self) -> &Target {
         &self.picture
+    }
+
+    /// The marks that occurred in the pictures of registers, picture by picture.
+    pub fn marks(&self) -> &[MarkSet] {
+        &self.marks
+    }
+
+    /// The pictures of registers on a sheet. The tiles are those whose pictures were asked for.
+    ///
+    /// # Errors
+    /// [`SheetTooLarge`].
+    pub fn sheet(&self, tiles: &[Tile], dressing: Dressing) -> Result<RgbaImage, SheetTooLarge> {
+        let picture = |number| self.picture.plane(number);
+        sheet::compose(tiles, self.size(), dressing, &self.marks, picture)
     }
 
     /// The picture alone.
@@ -270,6 +325,7 @@ impl<'a> Rendering<'a> {
 struct Renderer<'a, 'p> {
     scene: &'a Scene,
     rendered: Rendered<'a>,
+    marks: Vec<MarkSet>,
     done: usize,
     total: usize,
     progress: &'p dyn Fn(Progress<'_>),
@@ -294,14 +350,11 @@ impl Renderer<'_, '_> {
     fn pass(
         &mut self,
         pass: &Pass<'_>,
-        shown: Option<(usize, RegisterPicture)>,
+        shown: Option<(usize, &[RegisterPicture])>,
         target: &mut Target,
     ) -> Result<(), RenderError> {
         target.clear(Some(clear_color(pass.clear)), Some(1.0), Some(0));
         for (place, prepared) in pass.draws.iter().enumerate() {
-            let picture = shown
-                .filter(|(at, _)| *at == place)
-                .map(|(_, picture)| picture);
             (self.progress)(Progress {
                 done: self.done,
                 total: self.total,
@@ -315,30 +368,48 @@ impl Renderer<'_, '_> {
                 },
                 draw: prepared.name,
             });
-            self.draw(prepared, picture, target)?;
+            match shown.filter(|(at, _)| *at == place) {
+                Some((_, pictures)) => self.draw_registers(prepared, pictures, target)?,
+                None => self.draw(prepared, target)?,
+            }
             self.done += 1;
         }
         Ok(())
     }
 
-    fn draw(
-        &self,
+    fn draw(&self, prepared: &PreparedDraw<'_>, target: &mut Target) -> Result<(), RenderError> {
+        let shaded = self.rendered.shade(prepared);
+        draw_with(&shaded, &prepared.state, &shaded.program(), target)
+    }
+
+    /// Draws the registers in place of the colour, each into its plane.
+    fn draw_registers(
+        &mut self,
         prepared: &PreparedDraw<'_>,
-        picture: Option<RegisterPicture>,
+        pictures: &[RegisterPicture],
         target: &mut Target,
     ) -> Result<(), RenderError> {
+        target.split(pictures.len()).map_err(RenderError::Planes)?;
         let shaded = self.rendered.shade(prepared);
-        let mut state = prepared.state.clone();
-        if picture.is_some() {
-            state.blend.enable = false;
-            state.fog.enable = false;
-            state.alpha_test.enable = false;
-        }
-        let call = shaded.call(&state, [target.width(), target.height()]);
-        let drawn = draw(target, &call, &shaded.program(picture));
-        drawn.map(|_| ()).map_err(|error| RenderError::Draw {
-            draw: prepared.name.to_owned(),
-            error,
-        })
+        let shader = PictureProgram::new(shaded.program(), pictures);
+        let state = Show::state(&prepared.state);
+        draw_with(&shaded, &state, &shader, target)?;
+        self.marks = shader.marks();
+        Ok(())
     }
+}
+
+/// Draws a draw whose vertices were shaded.
+fn draw_with(
+    shaded: &ShadedDraw<'_>,
+    state: &RenderState,
+    shader: &dyn PixelShader,
+    target: &mut Target,
+) -> Result<(), RenderError> {
+    let call = shaded.call(state, [target.width(), target.height()]);
+    let drawn = draw(target, &call, shader);
+    drawn.map(|_| ()).map_err(|error| RenderError::Draw {
+        draw: shaded.draw().name.to_owned(),
+        error,
+    })
 }

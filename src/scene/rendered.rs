@@ -10,9 +10,7 @@ use super::prepare::{Pass, PreparedDraw};
 use super::render::RenderError;
 use super::{Scene, TextureSource};
 use crate::exec::{Environment, Stage};
-use crate::raster::{
-    DrawCall, PixelProgram, RegisterPicture, RenderState, Vertex, Viewport, shade_vertices,
-};
+use crate::raster::{DrawCall, PixelProgram, RenderState, Vertex, Viewport, shade_vertices};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 
@@ -159,12 +157,11 @@ impl<'a> ShadedDraw<'a> {
         &self.environment
     }
 
-    /// The pixel shader with all that is set while it runs; with a register in place of the colour, if one is given.
-    pub fn program(&self, picture: Option<RegisterPicture>) -> PixelProgram<'_> {
+    /// The pixel shader with all that is set while it runs.
+    pub fn program(&self) -> PixelProgram<'_> {
         PixelProgram {
             kernel: &self.draw.pixel.kernel,
             environment: &self.environment,
-            picture,
         }
     }
 

@@ -246,6 +246,9 @@ impl Parser<'_> {
         let text = std::str::from_utf8(text).unwrap_or("");
         let quoted = quote(text.as_bytes());
         let mut value = decimal(text);
+        if let Some(bits) = hexadecimal(text) {
+            return self.bits(bits, span, negative);
+        }
         if value.is_none() {
             let mut meant = numbers_for(text);
             meant.retain(|meant| decimal(meant).is_some());
@@ -279,6 +282,23 @@ impl Parser<'_> {
                 None
             }
             Some(value) => Some(if negative { -value } else { value }),
+        }
+    }
+
+    /// A number by its bits; only those that no digits can write.
+    fn bits(&mut self, value: f32, span: Span, negative: bool) -> Option<f32> {
+        if value.is_finite() {
+            let message = "only infinities and NaNs are written by their bits";
+            let help = format!("as a number this is {value:?}");
+            self.error(&rules::NUMBER, span, message, &help);
+            None
+        } else if negative {
+            let message = "a sign stands before the bits of a number, which have their own";
+            let help = format!("write 0x{:08X}", (-value).to_bits());
+            self.error(&rules::NUMBER, span, message, &help);
+            None
+        } else {
+            Some(value)
         }
     }
 
@@ -359,6 +379,16 @@ fn decimal(text: &str) -> Option<f32> {
         Ok(([], _)) => text.trim_end_matches(['f', 'F']).parse().ok(),
         _ => None,
     }
+}
+
+/// The number whose bits are written as eight hexadecimal digits behind `0x`.
+fn hexadecimal(text: &str) -> Option<f32> {
+    let digits = text
+        .strip_prefix("0x")
+        .or_else(|| text.strip_prefix("0X"))?;
+    let all = digits.len() == 8 && digits.bytes().all(|b| b.is_ascii_hexdigit());
+    let bits = u32::from_str_radix(digits, 16).ok().filter(|_| all)?;
+    Some(f32::from_bits(bits))
 }
 
 /// The numbers that a text with letters for digits can be, a few; an `f` at the end stays.

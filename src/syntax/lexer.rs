@@ -4,8 +4,9 @@
 //! token knows whether it begins a line, because lines help to recover from damage though the grammar has none.
 
 use super::report::{Reports, quote};
-use super::rules;
+use super::{comment, rules};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::program::Comment;
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_till, take_until, take_while, take_while1};
 use nom::character::complete::{digit0, digit1, one_of};
@@ -55,6 +56,8 @@ pub(super) struct Lexed {
     pub(super) tokens: Vec<Token>,
     /// Whether a directive was met that may define names.
     pub(super) names_missing: bool,
+    /// The comments that belong to the tokens of the shader; before which statement they stand is not known yet.
+    pub(super) comments: Vec<Comment>,
 }
 
 /// More tokens than the largest text of instructions that any version takes, by far; bounds the memory.
@@ -68,6 +71,7 @@ pub(super) fn lex(text: &[u8], base: u32, reports: &mut Reports) -> Lexed {
         line: 1,
         reports,
         directives: Vec::new(),
+        comments: Vec::new(),
     };
     let mut tokens = Vec::new();
     let mut rest = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
@@ -113,6 +117,7 @@ pub(super) fn lex(text: &[u8], base: u32, reports: &mut Reports) -> Lexed {
     Lexed {
         tokens,
         names_missing: !lexer.directives.is_empty(),
+        comments: lexer.comments,
     }
 }
 
@@ -123,6 +128,7 @@ struct Lexer<'a, 'r> {
     reports: &'r mut Reports,
     /// Names of the directives that were refused so far: one report each.
     directives: Vec<String>,
+    comments: Vec<Comment>,
 }
 
 impl<'a> Lexer<'a, '_> {
@@ -133,6 +139,8 @@ impl<'a> Lexer<'a, '_> {
     /// Skips white space, comments and directives; tells whether a line ended.
     fn skip_space(&mut self, mut rest: &'a [u8], mut first: bool) -> (&'a [u8], bool) {
         let mut new_line = false;
+        // Whether a line that begins with `;@` continues the last comment of the tokens.
+        let mut open = false;
         loop {
             let before = rest.len();
             rest = space(rest).map_or(rest, |(after, _)| after);
@@ -141,7 +149,8 @@ impl<'a> Lexer<'a, '_> {
                 rest = after;
                 new_line = true;
                 first = true;
-            } else if let Ok((after, _)) = line_comment(rest) {
+            } else if let Ok((after, text)) = line_comment(rest) {
+                open = self.token_comment(text, self.offset(rest), open);
                 rest = after;
             } else if rest.starts_with(b"/*") {
                 let after = self.block_comment(rest);
@@ -157,6 +166,33 @@ impl<'a> Lexer<'a, '_> {
                 return (rest, new_line);
             }
         }
+    }
+
+    /// A line comment, if it belongs to the tokens of the shader or continues one that does.
+    fn token_comment(&mut self, text: &[u8], at: u32, open: bool) -> bool {
+        let Some((line, content)) = comment::line(text, open) else {
+            return false;
+        };
+        let start = self.base + at;
+        if line == comment::Line::First {
+            let span = Span::new(start, start);
+            self.comments.push(Comment {
+                before: 0,
+                words: Vec::new(),
+                span,
+            });
+        }
+        let Some(comment) = self.comments.last_mut() else {
+            return false;
+        };
+        comment.span.end = start + text.trim_ascii_end().len() as u32;
+        if let Err(fault) = comment::read(content, &mut comment.words) {
+            let first = comment.span.end - fault.left as u32;
+            let span = Span::new(first, first + fault.length as u32);
+            let report = Diagnostic::error(&rules::TOKEN_COMMENT, span, fault.message);
+            self.reports.push(report.with_help(fault.help));
+        }
+        true
     }
 
     fn block_comment(&mut self, rest: &'a [u8]) -> &'a [u8] {

@@ -2,9 +2,11 @@
 //!
 //! The way of a text: `lexer` (bytes to tokens, `nom`), `prologue` (the version), `statement`, `list`, `operand`,
 //! `index`, `meaning`, `declare` (instructions). What a word means is in `names`; what a scanner or a typist makes of one in
-//! `confuse`; what can be said about operands without mnemonic in `lost`. Line ends are white space to the grammar,
+//! `confuse`; what can be said about operands without mnemonic in `lost`. Comments are dropped, but for those that `comment`
+//! reads: they belong to the tokens of a shader. Line ends are white space to the grammar,
 //! but they are where reading starts again after damage, so that one damaged place is one diagnostic.
 
+mod comment;
 mod confuse;
 mod declare;
 mod fix;
@@ -34,7 +36,7 @@ pub use unread::unread;
 
 use crate::diagnostic::{Diagnostic, SourceFile, Span};
 use crate::isa::Version;
-use crate::program::{Program, Register};
+use crate::program::{Program, Register, Statement};
 use parser::Parser;
 use report::Reports;
 
@@ -116,6 +118,7 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         begun: false,
         lenient: options.lenient,
     };
+    let mut comments = lexed.comments;
     let heading = parser.heading(options.version);
     if let Some(heading) = &heading {
         parser.version = heading.version;
@@ -125,6 +128,13 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
     let program = heading.filter(|h| !h.guessed).map(|heading| Program {
         version: heading.version,
         version_span: heading.span,
+        comments: {
+            for comment in &mut comments {
+                let before = |s: &Statement| s.span().start < comment.span.start;
+                comment.before = parser.statements.partition_point(before);
+            }
+            comments
+        },
         statements: parser.statements,
         span: file.span(),
     });

@@ -1,23 +1,27 @@
 //! Shaders as text, in one canonical form.
 
+use super::comment;
 use crate::isa::operand::XYZW;
 use crate::isa::{ShaderKind, Swizzle, WriteMask};
-use crate::program::{Dcl, Def, Destination, Instruction, Program, Source, Statement, letters};
+use crate::program::{
+    Dcl, Def, Destination, Instruction, Item, Program, Source, Statement, letters,
+};
 
 /// The listing of a shader: what [`super::parse`] reads back as the same shader, spans apart.
 ///
 /// Lower case, dots in the version, one statement a line, shift before saturation, `+` at the start of the line, masks
 /// and swizzles in `rgba` for pixel and `xyzw` for vertex shaders, left out where they say nothing, repeats at their end
-/// collapsed. Numbers are the shortest text that gives the same bits; infinities and NaNs of a `def`, which only tokens
-/// can hold, have no text that reads back.
+/// collapsed. Numbers are the shortest text that gives the same bits; of infinities and NaNs, which are mostly found in
+/// tokens, the bits themselves. Comments of a token stream stand behind `;@comment`.
 pub fn print(program: &Program) -> String {
     let kind = program.version.kind();
     let mut text = format!("{}\n", program.version);
-    for statement in &program.statements {
-        match statement {
-            Statement::Instruction(i) => text += &print_instruction(i, kind),
-            Statement::Def(d) => text += &print_def(d),
-            Statement::Dcl(d) => text += &print_dcl(d),
+    for item in program.items() {
+        match item {
+            Item::Statement(Statement::Instruction(i)) => text += &print_instruction(i, kind),
+            Item::Statement(Statement::Def(d)) => text += &print_def(d),
+            Item::Statement(Statement::Dcl(d)) => text += &print_dcl(d),
+            Item::Comment(c) => text += &comment::print(&c.words),
         }
         text.push('\n');
     }
@@ -83,10 +87,12 @@ fn print_dcl(dcl: &Dcl) -> String {
     )
 }
 
-/// The shortest decimal text that reads back as the same bits.
+/// The shortest decimal text that reads back as the same bits, or the bits of what has no decimal text.
 fn print_number(value: f32) -> String {
     let size = value.abs();
-    if value == 0.0 || (1e-5..1e9).contains(&size) {
+    if !value.is_finite() {
+        format!("0x{:08X}", value.to_bits())
+    } else if value == 0.0 || (1e-5..1e9).contains(&size) {
         format!("{value}")
     } else {
         format!("{value:e}")

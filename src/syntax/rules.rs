@@ -28,11 +28,12 @@ rules! {
     SELECTOR "P14" "Behind the dot stand one to four letters, all of xyzw or all of rgba; in a write mask in order and none twice.";
     SOURCE_MODIFIER "P15" "A source takes - or 1- in front or, in pixel shaders, one of _bias _bx2 _x2 _dz _dw behind the register, with - only before the first three.";
     INDEX "P16" "The index in brackets is a sum of whole numbers and at most one a0.x.";
-    NUMBER "P17" "A number is written in decimal digits, with a point or an exponent where needed, and fits a 32-bit float.";
+    NUMBER "P17" "A number is written in decimal digits, with a point or an exponent where needed, and fits a 32-bit float; infinities and NaNs are written as their eight hexadecimal digits behind 0x.";
     DECLARATION "P18" "A declaration is dcl_ with a usage, an index from 0 to 15 where needed, and a register.";
     CO_ISSUE "P19" "A + stands once in front of the second instruction of a pair.";
     STRAY "P20" "Nothing but instructions and comments stands in a listing.";
     TOO_MANY "P21" "Only the first errors of a text are shown.";
     SPELLING "P22" "A spelling that the documents do not have is read where it can mean only one thing.";
     UNREAD "P23" "What a pixel shader loads is read by a later instruction.";
+    TOKEN_COMMENT "P24" "Behind ;@comment stand strings in quotes and tokens of eight hexadecimal digits; lines that begin with ;@ and a blank continue it.";
 }

@@ -8,19 +8,19 @@ use super::listing::Lines;
 use super::magnitude::{Magnitudes, Outcome};
 use super::number;
 use super::together;
-use super::{Observed, Options, Stage};
+use super::{Observed, Options, ShownPixels, Stage};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{ShaderKind, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::program::Statement;
-use crate::raster::{Compare, RegisterPicture, View};
+use crate::raster::Compare;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{Display, Write};
 
 /// A write that waits until the steps beside it have read.
-struct Pending<'k> {
-    step: &'k Step,
-    value: Value,
+pub(super) struct Pending<'k> {
+    pub(super) step: &'k Step,
+    pub(super) value: Value,
     outcome: Outcome,
 }
 
@@ -42,6 +42,8 @@ pub(super) struct Body<'a> {
     names: BTreeSet<String>,
     killing: bool,
     discards: bool,
+    /// Whether the register that is shown stands in a `let` while the shader goes on.
+    pub(super) captured: bool,
     /// The lines so far.
     text: String,
 }
@@ -65,11 +67,8 @@ pub(super) fn components_read(kernel: &Kernel, options: &Options) -> [WriteMask;
     for slot in observed.flat_map(|observed| observed.of(kernel.version.kind())) {
         read[slot.index()] = WriteMask::ALL;
     }
-    if let Some(picture) = options
-        .show
-        .filter(|_| kernel.version.kind() == ShaderKind::Pixel)
-    {
-        read[picture.slot.index()] = WriteMask::ALL;
+    if let Some(shown) = (options.show).filter(|_| kernel.version.kind() == ShaderKind::Pixel) {
+        read[shown.slot.index()] = WriteMask::ALL;
     }
     for step in &kernel.steps {
         let mask = kept(kernel, options, step);
@@ -133,6 +132,7 @@ impl<'a> Body<'a> {
             names: BTreeSet::new(),
             killing: false,
             discards: false,
+            captured: false,
             text: String::new(),
         };
         let known: BTreeMap<u32, [f32; 4]> = (kernel.definitions.iter())
@@ -169,11 +169,6 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The register that a pixel shader returns in place of its colour.
-    pub(super) fn shown(&self) -> Option<RegisterPicture> {
-        (self.options.show).filter(|_| self.kind() == ShaderKind::Pixel)
-    }
-
     /// Whether the alpha test lets nothing through.
     pub(super) fn discards_all(&self) -> bool {
         self.options.alpha_test == Some(Compare::Never) && self.shown().is_none()
@@ -181,8 +176,8 @@ impl<'a> Body<'a> {
 
     /// Whether it matters in the end what `texkill` says.
     pub(super) fn asks_for_kill(&self) -> bool {
-        let exact = (self.shown()).is_some_and(|picture| picture.view == View::Exact);
-        self.stage.kernel.kills() && !exact && !self.discards_all()
+        let all = (self.shown()).is_some_and(|shown| shown.pixels == ShownPixels::All);
+        self.stage.kernel.kills() && !all && !self.discards_all()
     }
 
     pub(super) fn name(&self, slot: Slot) -> String {
@@ -265,16 +260,24 @@ impl<'a> Body<'a> {
         lines.up_to(program.version_span, &mut |line| self.push(line));
         self.declarations();
         let mut steps = kernel.steps.as_slice();
-        let most = self.shown().map_or(usize::MAX, |show| show.instructions);
+        let on_the_way = self.shown_on_the_way();
+        let end = match on_the_way {
+            None => self.shown().map_or(usize::MAX, |shown| shown.instructions),
+            Some(_) => usize::MAX,
+        };
+        let captured = |number| on_the_way.filter(|shown| shown.instructions == number);
+        if let Some(shown) = captured(0) {
+            self.capture(shown.slot, &[]);
+        }
         let loads = steps.iter().take_while(|step| is_load(step)).count();
-        for load in steps[..loads].iter().filter(|load| load.origin < most) {
+        for load in steps[..loads].iter().filter(|load| load.origin < end) {
             self.step(load, &mut Vec::new());
         }
         steps = &steps[loads..];
         let mut pending = Vec::new();
         let mut number = 0;
         for statement in &program.statements {
-            if number == most && matches!(statement, Statement::Instruction(_)) {
+            if number == end && matches!(statement, Statement::Instruction(_)) {
                 return self.commit(&mut pending);
             }
             lines.up_to(statement.span(), &mut |line| self.push(line));
@@ -290,6 +293,9 @@ impl<'a> Body<'a> {
                     self.instruction(own, &mut pending);
                     steps = rest;
                     number += 1;
+                    if let Some(shown) = captured(number) {
+                        self.capture(shown.slot, &pending);
+                    }
                 }
             }
         }

@@ -57,6 +57,7 @@ mod operation;
 mod options;
 mod pixel;
 mod reflection;
+mod shown;
 #[cfg(test)]
 mod tests;
 mod together;
@@ -65,7 +66,7 @@ mod vertex;
 
 pub use error::TranslateError;
 pub use layout::{Field, UniformField};
-pub use options::{Fog, Observed, Options, Points, StageOptions};
+pub use options::{Fog, Observed, Options, Points, Shown, ShownPixels, StageOptions};
 pub use reflection::{
     Binding, Definition, Dimension, Reflection, Resource, StageReflection, Varying, VertexInput,
 };

@@ -3,7 +3,7 @@
 use crate::exec::STAGES;
 use crate::isa::ShaderKind;
 use crate::kernel::Slot;
-use crate::raster::{Compare, FogDistance, FogMode, RegisterPicture, RenderState, ShadeMode};
+use crate::raster::{Compare, FogDistance, FogMode, RenderState, ShadeMode};
 use crate::texture::{AddressMode, Filter, TextureKind};
 
 /// What a translation is made for. The default is Direct3D 8's default state with a 2D texture in every stage.
@@ -34,10 +34,8 @@ pub struct Options {
     pub wild_inputs: bool,
     /// The registers that are looked at from outside: the stages become functions for an entry point that looks.
     pub observed: Option<Observed>,
-    /// A register of the pixel shader that is returned in place of the colour, as it is after some instructions: the
-    /// shader is cut there. Components that nothing has written are 0. Neither fog nor the alpha test touch it; `texkill`
-    /// as far as it has run does, unless the view is [`View::Exact`](crate::raster::View::Exact).
-    pub show: Option<RegisterPicture>,
+    /// A register of the pixel shader that is returned in place of the colour. Neither fog nor the alpha test touch it.
+    pub show: Option<Shown>,
     /// Whether level 0 of a texture is read whatever its coordinates do from pixel to pixel: exact for textures of one
     /// level. Such a translation may sample where WGSL allows no derivatives: in branches, and beyond fragment shaders.
     pub level_zero: bool,
@@ -91,6 +89,28 @@ impl Default for Options {
             pixel_entry: "ps_main".into(),
         }
     }
+}
+
+/// A register of a pixel shader as it is after some instructions: all four components, 0 where nothing has written them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// The register.
+    pub slot: Slot,
+    /// How many instructions run before it is looked at; `usize::MAX`: all.
+    pub instructions: usize,
+    /// Which of the pixels come through that are covered.
+    pub pixels: ShownPixels,
+}
+
+/// Which pixels show a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShownPixels {
+    /// All: the shader ends after the instructions, and a `texkill` among them has no effect.
+    All,
+    /// Those that the whole shader keeps. Where it replaces the depth, the depth is that of the whole shader.
+    Kept,
+    /// The others: those that `texkill` discards.
+    Discarded,
 }
 
 /// Registers that are looked at from outside, as they are at the end of their shader.

@@ -1,14 +1,12 @@
 //! The pixel entry point.
 
 use super::body::Body;
-use super::expression::{Expression, construct};
+use super::expression::Expression;
 use super::helper::Helper;
 use super::layout::Field;
-use super::number;
-use super::options::Fog;
+use super::options::{Fog, ShownPixels};
 use super::varyings::Varyings;
-use crate::kernel::Slot;
-use crate::raster::{Compare, FogDistance, FogMode, RegisterPicture, View};
+use crate::raster::{Compare, FogDistance, FogMode};
 
 /// The structure of what the stage returns, if that is more than a colour.
 pub(super) fn output_structure(writes_depth: bool) -> Option<&'static str> {
@@ -24,7 +22,7 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     body.observe();
     tests(body, varyings);
     let result = match body.shown() {
-        Some(picture) => shown(body, &picture),
+        Some(shown) => body.shown_content(shown.slot),
         None => {
             if let Some(fog) = body.options.fog {
                 apply_fog(body, fog);
@@ -69,7 +67,8 @@ fn tests(body: &mut Body<'_>, varyings: &Varyings) {
         };
     }
     if body.asks_for_kill() {
-        conditions.push("killed".to_string());
+        let discarded = shown.is_some_and(|shown| shown.pixels == ShownPixels::Discarded);
+        conditions.push(if discarded { "!killed" } else { "killed" }.to_string());
     }
     for first in (0..varyings.clip).step_by(4) {
         conditions.push(format!("any(in.clip{} < vec4f())", first / 4));
@@ -90,55 +89,6 @@ fn tests(body: &mut Body<'_>, varyings: &Varyings) {
         body.push("    discard;");
         body.push("}");
     }
-}
-
-/// What is shown of a register, as [`RegisterPicture`] says.
-fn shown(body: &Body<'_>, picture: &RegisterPicture) -> String {
-    let slot = picture.slot;
-    // Registers that only vertex shaders have are 0 here.
-    let absent = slot == Slot::ADDRESS || (2..16).any(|i| Slot::input(i) == Some(slot));
-    let width = if absent { 0 } else { body.width(slot) };
-    let (name, letters) = (body.name(slot), body.letters(slot));
-    let first = |count: usize| {
-        if count < width {
-            let components: String = letters.iter().take(count).collect();
-            return format!("{name}.{components}");
-        }
-        let missing = std::iter::repeat_n("0.0".to_string(), count - width);
-        let parts: Vec<String> = (Some(name.clone()).filter(|_| width > 0).into_iter())
-            .chain(missing)
-            .collect();
-        match parts.as_slice() {
-            [whole] => whole.clone(),
-            _ => construct(parts, count).text,
-        }
-    };
-    let modified = |value: String| {
-        let value = if picture.absolute {
-            format!("abs({value})")
-        } else {
-            value
-        };
-        match number::literal(picture.scale) {
-            Some(scale) if picture.scale != 1.0 => format!("{value} * {scale}"),
-            _ => value,
-        }
-    };
-    let three = match picture.view {
-        View::Exact => return modified(first(4)),
-        View::Color => modified(first(3)),
-        View::Component(component) => {
-            let component = component & 3;
-            let value = match width {
-                1 if component == 0 => name,
-                2.. if component < width => format!("{name}.{}", letters[component]),
-                _ => "0.0".into(),
-            };
-            format!("vec3f({})", modified(value))
-        }
-        View::Magnitude => format!("vec3f({})", modified(format!("length({})", first(3)))),
-    };
-    format!("vec4f({three}, 1.0)")
 }
 
 /// The condition under which the alpha test takes the pixel out, in 8 bits as the target has them.

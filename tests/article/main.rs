@@ -5,10 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 use std::path::Path;
 use texcrd::exec::{Environment, Stage};
 use texcrd::kernel::Slot;
-use texcrd::raster::{
-    DrawCall, PixelProgram, PixelResult, PixelShader, RegisterPicture, View, Viewport, cover,
-    shade_vertices,
-};
+use texcrd::raster::{DrawCall, PixelProgram, Viewport, cover, shade_vertices};
 use texcrd::scene::{DirectoryResolver, LoadOptions, PreparedDraw, Scene};
 
 /// How far apart the pixels are that are measured.
@@ -110,14 +107,8 @@ fn mean_angle(scene: &Scene) -> f32 {
     let shader = PixelProgram {
         kernel: &pane.pixel.kernel,
         environment: &environment,
-        picture: Some(RegisterPicture {
-            slot: Slot::temp(2).expect("r2"),
-            instructions: first_phase,
-            view: View::Color,
-            absolute: false,
-            scale: 1.0,
-        }),
     };
+    let looked_up = Slot::temp(2).expect("r2");
     let object = matrix(&pane.vertex_constants, 12);
     let center = object.transform_point3(Vec3::ZERO);
     let eye = object.transform_point3(Vec4::from(pane.vertex_constants[28]).truncate());
@@ -128,9 +119,11 @@ fn mean_angle(scene: &Scene) -> f32 {
         for x in (0..size[0]).step_by(STEP) {
             let fragments = cover(&call, (size[0], size[1]), (x, y)).expect("the draw is sound");
             for fragment in fragments {
-                let mut result = PixelResult::new();
-                shader.shade(&fragment.batch, &mut result);
-                let [r, g, b, _] = result.color.map(|component| component[fragment.lane]);
+                let trace = shader.trace(&fragment.batch, fragment.lane).trace;
+                let [r, g, b, _] = (trace.changes.iter())
+                    .rfind(|write| write.slot == looked_up && write.instruction < first_phase)
+                    .expect("the first phase writes r2")
+                    .after;
                 // The pixel centre on the screen, back through the projection.
                 let at = Vec3::new(
                     2.0 * x as f32 / size[0] as f32 - 1.0,

@@ -8,6 +8,7 @@ mod cases;
 mod exact;
 mod frames;
 mod matching;
+mod pictures;
 mod registers;
 mod states;
 #[path = "../conformance/suite.rs"]

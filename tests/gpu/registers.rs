@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use texcrd::gpu::{FragmentComparison, Parting, Renderer, compare_pixel};
 use texcrd::kernel::Slot;
-use texcrd::raster::{RegisterPicture, View};
-use texcrd::scene::{LoadOptions, RenderOptions, Scene, Show};
+use texcrd::scene::{LoadOptions, RenderOptions, Scene};
 
 const VERTEX: &str = "vs.1.1\nmov oPos, v0\nmov oT0, v7\nadd oT1, -v7, c0\n";
 
@@ -263,61 +262,4 @@ state = {{ point_size = 3 }}
             assert_eq!(registers.expect("it can be asked"), None, "{topology}");
         }
     }
-}
-
-/// Pictures of registers are those of the CPU, and what stands in them is right: r1 at (5, 2) is (5/16, 1/16, 0).
-#[test]
-fn registers_as_pictures() {
-    let Some(device) = crate::device() else {
-        return;
-    };
-    let scene = scene(VERTEX, LISTING);
-    // Of r1 in steps of 1/255: 79.7, 15.9, 0. The length is √(25 + 1)/16 = 0.3187, 81.3 steps; twice r1.r is 159.4.
-    for (view, scale, expected) in [
-        (View::Color, 1.0, [80, 16, 0, 255]),
-        (View::Magnitude, 1.0, [81, 81, 81, 255]),
-        (View::Component(0), -2.0, [159, 159, 159, 255]),
-    ] {
-        let picture = RegisterPicture {
-            slot: Slot::temp(1).expect("r1"),
-            instructions: 2,
-            view,
-            absolute: scale < 0.0,
-            scale: f32::abs(scale),
-        };
-        let options = RenderOptions {
-            size: None,
-            show: Some(Show {
-                draw: None,
-                picture,
-            }),
-        };
-        let cpu = scene.render(&options, &|_| ()).expect("the CPU renders");
-        let gpu = Renderer::new(&device).render(&scene, &options, &|_| ());
-        let gpu = gpu.expect("the GPU renders");
-        assert_eq!(gpu.get_pixel(5, 2).0, expected);
-        for (x, y, pixel) in gpu.enumerate_pixels() {
-            let other = cpu.color(x, y).expect("one size");
-            let near = pixel.0.iter().zip(other).all(|(a, b)| a.abs_diff(b) <= 1);
-            assert!(near, "{x}, {y}: {pixel:?} {other:?}");
-        }
-    }
-    // A draw that there is not.
-    let picture = RegisterPicture {
-        slot: Slot::R0,
-        instructions: usize::MAX,
-        view: View::Color,
-        absolute: false,
-        scale: 1.0,
-    };
-    let options = RenderOptions {
-        size: None,
-        show: Some(Show {
-            draw: Some("none".into()),
-            picture,
-        }),
-    };
-    let refused = Renderer::new(&device).render(&scene, &options, &|_| ());
-    let refused = refused.expect_err("there is no such draw").to_string();
-    assert!(refused.contains("no draw `none`"), "{refused}");
 }

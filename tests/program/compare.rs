@@ -70,7 +70,7 @@ fn equal_pictures() {
     for part in [
         "pixel 2,5, inside: CPU 255 0 0 255, GPU 255 0 0 255",
         "`c0`, primitive 1: 255 0 0 255",
-        "`c1`, primitive 1: fails the alpha, depth or stencil test",
+        "`c1`, primitive 1: fails the depth test",
         "No instruction's registers part",
         "2     texcoord t0",
         "3     mov r0, c0",

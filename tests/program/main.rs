@@ -1,10 +1,14 @@
 //! The program, run as people run it.
 #![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
+mod asm;
 mod check;
 mod compare;
+mod debug;
+mod dis;
 mod eval;
 mod generate;
+mod pictures;
 mod run;
 mod test;
 mod translate;

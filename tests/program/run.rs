@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Writes the files of a scene into a folder of its own and returns the scene's path and that of a picture.
-fn scene(test: &str, files: &[(&str, &str)]) -> (String, String) {
+pub(super) fn scene(test: &str, files: &[(&str, &str)]) -> (String, String) {
     let folder = folder(test);
     for (name, text) in files {
         fs::write(folder.join(name), text).expect("the file can be written");
@@ -20,7 +20,7 @@ fn scene(test: &str, files: &[(&str, &str)]) -> (String, String) {
     (path("scene.toml"), path("out.png"))
 }
 
-fn pixel(path: &str, x: u32, y: u32) -> [u8; 4] {
+pub(super) fn pixel(path: &str, x: u32, y: u32) -> [u8; 4] {
     image::open(path)
         .expect("a picture")
         .to_rgba8()
@@ -29,7 +29,7 @@ fn pixel(path: &str, x: u32, y: u32) -> [u8; 4] {
 }
 
 /// A rectangle over the left half of clip space in the colour of c0.
-const HALF: &str = r#"
+pub(super) const HALF: &str = r#"
 size = [8, 4]
 clear = [0, 0, 1, 1]
 [meshes.half]
@@ -41,7 +41,7 @@ vs = "half.vsh"
 ps_text = "ps.1.1\nmov r0, c0\n"
 ps_constants = { c0 = [1, 0.5, 0, 1] }
 "#;
-const HALF_VS: &str = "vs.1.1\nmov oPos, v0\nmov oT0, v0\n";
+pub(super) const HALF_VS: &str = "vs.1.1\nmov oPos, v0\nmov oT0, v0\n";
 
 /// Pixel centres are whole numbers: x = (X + 1)·4, so that clip space −1…0 is pixels 0 to 3 and its right edge, exactly
 /// on pixel 4, belongs to what would come next to it.
@@ -107,7 +107,7 @@ fn a_register_instead_of_the_colour() {
     // y is 1 − 2·2/4 = 0, z is 0.5: the length of (−0.5, 0, 0.5) is 0.7071, 180/255.
     assert_eq!(show(&["oT0", "--mag"]), [180, 180, 180, 255]);
     assert_eq!(show(&["r0"]), [255, 128, 0, 255]);
-    assert_eq!(show(&["r0@1"]), [0, 0, 0, 255]);
+    assert_eq!(show(&["r0@2"]), [255, 128, 0, 255]);
     for (wrong, status) in [
         ("r7", 2),
         ("x", 2),

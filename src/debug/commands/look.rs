@@ -1,7 +1,7 @@
 //! `print`, `display`, `list`, `where`: what is looked at where one is.
 
 use super::{
-    Arguments, Console, Display, Effect, Fault, Outcome, Reply, place, scene, tell, travel,
+    Arguments, Console, Display, Effect, Fault, Outcome, Reply, explain, place, scene, tell, travel,
 };
 use crate::debug::expression::{Expression, Format};
 use crate::debug::run::Listing;
@@ -204,7 +204,6 @@ pub(super) fn show(
     session: &mut Session<'_>,
     arguments: &Arguments<'_>,
 ) -> Outcome {
-    let run = session.run().ok_or("there is no run")?;
     let mut shows = Vec::new();
     let mut path = None;
     for word in arguments.words() {
@@ -213,10 +212,7 @@ pub(super) fn show(
             continue;
         }
         let (register, line) = word.split_once('@').unwrap_or((word, ""));
-        let expression: Expression = register.parse()?;
-        if expression.target(&run.listing).is_none() {
-            return Err(format!("`{register}` is no register of this shader").into());
-        }
+        explain::register(session, register)?;
         shows.push(match line {
             "" => format!("{register}{}", here(session)),
             _ => word.to_string(),

@@ -22,6 +22,8 @@ mod scene;
 mod stopping;
 mod table;
 mod tell;
+#[cfg(test)]
+mod tests;
 
 mod travel;
 

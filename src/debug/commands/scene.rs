@@ -100,10 +100,8 @@ mod of_scenes {
         }
         let history = subject.history();
         let mut text = Text::default();
-        text.line(stored_line(
-            format!("{:<40}", "      clear"),
-            &history.clear,
-        ));
+        let clear = Line::from(format!("{:<40}", "      clear"));
+        text.line(clear.joined(stored_line(&history.clear)));
         if history.left_out > 0 {
             text.line(Line::styled(
                 format!("      ({} more before)", history.left_out),

@@ -313,7 +313,8 @@ pub(super) fn unknown(what: &str, word: &str, names: impl Iterator<Item = &'stat
     let nearest = names
         .map(|name| (distance(word, name), name))
         .filter(|(distance, _)| *distance <= most)
-        .min_by_key(|(distance, _)| *distance);
+        // Of equally near ones that with the same first letter: it is seldom wrong.
+        .min_by_key(|(distance, name)| (*distance, name.get(..1) != word.get(..1)));
     match nearest {
         Some((_, name)) => format!("`{word}` is no {what}; did you mean `{name}`?").into(),
         None => format!("`{word}` is no {what}; `help` lists them").into(),

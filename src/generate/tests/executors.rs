@@ -6,8 +6,9 @@ use crate::isa::SourceModifier;
 use crate::kernel::{Op, Operand, Place, SLOT_COUNT, Step};
 use crate::texture::sample_at;
 
+/// Any NaN is like any other: its sign and its payload follow from the order in which a compiler lets the hardware add.
 fn bits(value: [f32; 4]) -> [u32; 4] {
-    value.map(f32::to_bits)
+    value.map(|number| if number.is_nan() { f32::NAN } else { number }.to_bits())
 }
 
 #[test]

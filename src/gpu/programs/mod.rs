@@ -10,7 +10,7 @@ mod module;
 mod text;
 
 use super::buffers::filled;
-use super::picture::{Picture, depth_format, floats};
+use super::picture::{Depth, Picture, depth_format, floats};
 use super::texture::{GpuTexture, view_dimension};
 use super::{Device, GpuError, Uniforms};
 use crate::kernel::Slot;
@@ -105,7 +105,7 @@ impl<'a> Batch<'a> {
         let group = self.group(device, &layout)?;
         let pixels = filled(device, &self.module.pixels, wgpu::BufferUsages::VERTEX);
         let size = [WIDTH, self.module.height(WIDTH)];
-        let picture = Picture::new(device, size, FORMAT, depth, false);
+        let picture = Picture::new(device, size, FORMAT, depth, Depth::Dropped);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let mut commands = picture.begin(&mut encoder, Some([0.0; 4]));
         commands.set_pipeline(&pipeline);

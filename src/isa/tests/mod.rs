@@ -4,7 +4,7 @@
 //! specification by eye.
 
 mod modifiers;
-mod opcodes;
+pub(crate) mod opcodes;
 mod registers;
 
 use super::Version;
@@ -15,7 +15,7 @@ fn version(name: &str) -> Version {
 }
 
 /// The versions of a word such as `ps.1.2-1.4`, `vs.1.1`, `vs`, `ps`, `all`.
-fn versions(word: &str) -> Vec<Version> {
+pub(crate) fn versions(word: &str) -> Vec<Version> {
     let list: &[&str] = match word {
         "all" => &[
             "vs.1.0", "vs.1.1", "ps.1.0", "ps.1.1", "ps.1.2", "ps.1.3", "ps.1.4",

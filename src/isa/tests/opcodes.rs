@@ -75,7 +75,8 @@ bem           0059 ps.1.4      A 1+2  2 0 -
 phase         FFFD ps.1.4      P 0+0  0 0 -
 ";
 
-fn rows() -> impl Iterator<Item = Vec<&'static str>> {
+/// The lines of the list, in words.
+pub(crate) fn rows() -> impl Iterator<Item = Vec<&'static str>> {
     SPEC.lines()
         .filter(|l| !l.is_empty())
         .map(|l| l.split_whitespace().collect())

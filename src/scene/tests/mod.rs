@@ -2,6 +2,7 @@ mod broken;
 mod documented;
 mod history;
 mod meanings;
+mod pictures;
 mod pixels;
 mod refused;
 mod targets;

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::*;
 use crate::kernel::Slot;
-use crate::raster::{RegisterPicture, View};
+use crate::raster::{Look, RegisterPicture};
 use crate::scene::{Progress, Show};
 
 const BLACK: [u8; 4] = [0, 0, 0, 255];
@@ -146,13 +146,12 @@ ps_constants.c0 = 1
         size: None,
         show: Some(Show {
             draw: draw.map(str::to_owned),
-            picture: RegisterPicture {
+            pictures: vec![RegisterPicture {
                 slot: Slot::temp(1).unwrap(),
                 instructions: 1,
-                view: View::Color,
-                absolute: false,
-                scale: 1.0,
-            },
+                look: Look::default(),
+                killed: false,
+            }],
         }),
     };
     let picture = scene.render(&show(Some("shown")), &|_| {}).unwrap();

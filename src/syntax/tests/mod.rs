@@ -5,6 +5,7 @@ mod grammar;
 mod robust;
 mod round_trip;
 mod scans;
+mod tokens;
 mod unsure;
 
 use super::{Parsed, apply_fixes, parse};

@@ -88,7 +88,7 @@ fn instructions(kind: ShaderKind) -> impl Strategy<Value = Statement> {
 }
 
 fn statements(kind: ShaderKind) -> impl Strategy<Value = Statement> {
-    let number = any::<f32>().prop_filter("text has only these", |v| v.is_finite());
+    let number = any::<f32>().prop_filter("a NaN is not equal to itself", |v| !v.is_nan());
     let defs = (
         registers(),
         proptest::array::uniform4(number),
@@ -130,6 +130,7 @@ fn programs() -> impl Strategy<Value = Program> {
                 version,
                 version_span: HERE,
                 statements,
+                comments: Vec::new(),
                 span: HERE,
             }
         })

@@ -102,6 +102,7 @@ fn vertex_shader(instructions: Vec<Instruction>) -> Program {
         version: Version::Vs11,
         version_span: Span::new(0, 6),
         statements: all.map(Statement::Instruction).collect(),
+        comments: Vec::new(),
         span: Span::new(0, 20),
     }
 }
@@ -159,6 +160,7 @@ fn a_definition_is_no_half_of_a_pair() {
     let shader = Program {
         version: Version::Ps11,
         version_span: Span::new(0, 6),
+        comments: Vec::new(),
         statements: vec![
             Statement::Def(Def {
                 register: Register::new(RegisterFile::Const, 0),
@@ -203,6 +205,7 @@ fn nothing_that_can_be_built_brings_the_validator_down() {
             version,
             version_span: Span::default(),
             statements,
+            comments: Vec::new(),
             span: Span::default(),
         };
         for dialect in Dialect::all() {

@@ -2,8 +2,8 @@
 
 use super::support::{Shader, valid, valid_pair};
 use crate::kernel::Slot;
-use crate::raster::{Compare, FogDistance, FogMode, RegisterPicture, View};
-use crate::wgsl::{Fog, Options};
+use crate::raster::{Compare, FogDistance, FogMode};
+use crate::wgsl::{Fog, Options, Shown, ShownPixels};
 
 const LISTING: &str = "\
 ps.1.4
@@ -18,14 +18,12 @@ mov r0.a, c1
 add r3.r, r0, v0
 ";
 
-fn show(slot: Option<Slot>, instructions: usize, view: View) -> Options {
+fn show(slot: Option<Slot>, instructions: usize, pixels: ShownPixels) -> Options {
     Options {
-        show: Some(RegisterPicture {
+        show: Some(Shown {
             slot: slot.unwrap(),
             instructions,
-            view,
-            absolute: false,
-            scale: 1.0,
+            pixels,
         }),
         ..Options::default()
     }
@@ -55,13 +53,8 @@ fn every_cut_is_valid() {
         let instructions = pixel.program.instructions().count();
         for slot in Slot::all() {
             for most in [0, 2, instructions] {
-                for view in [
-                    View::Exact,
-                    View::Color,
-                    View::Component(2),
-                    View::Magnitude,
-                ] {
-                    let mut options = show(Some(slot), most, view);
+                for pixels in [ShownPixels::All, ShownPixels::Kept, ShownPixels::Discarded] {
+                    let mut options = show(Some(slot), most, pixels);
                     options.fog = Some(Fog {
                         table: FogMode::Linear,
                         distance: FogDistance::W,
@@ -76,7 +69,7 @@ fn every_cut_is_valid() {
 
 #[test]
 fn the_shader_ends_after_so_many_instructions() {
-    let cut = |most| valid(LISTING, &show(Slot::temp(2), most, View::Exact)).source;
+    let cut = |most| valid(LISTING, &show(Slot::temp(2), most, ShownPixels::All)).source;
     // The fifth instruction is the second `texld`; `phase` is the fourth.
     assert!(!cut(4).contains("texld r2"), "{}", cut(4));
     assert!(
@@ -93,7 +86,7 @@ fn the_shader_ends_after_so_many_instructions() {
 fn inputs_come_whole() {
     let vertex = Shader::new("vs.1.1\nm4x4 oPos, v0, c0\nmov oT0, v7\nmov oT5, v7\n");
     let pixel = Shader::new("ps.1.4\ntexld r0, t0\n");
-    let shown = |slot| valid_pair(&vertex, &pixel, &show(slot, 0, View::Exact)).source;
+    let shown = |slot| valid_pair(&vertex, &pixel, &show(slot, 0, ShownPixels::All)).source;
     assert_eq!(returned(&shown(Slot::texcoord(5))), "in.t5");
     assert!(shown(Slot::texcoord(5)).contains("@location(5) t5: vec4f"));
     assert!(shown(Slot::texcoord(0)).contains("@location(0) t0: vec4f"));
@@ -102,36 +95,61 @@ fn inputs_come_whole() {
     assert!(color.contains("let v1 = saturate(in.v1);") && returned(&color) == "v1");
 }
 
+/// What becomes of a pixel is decided by the whole shader: where that may discard it or replaces its depth, the register is
+/// kept and the shader goes on. Otherwise it ends.
 #[test]
-fn the_views() {
-    let shown = |view, absolute, scale| {
-        let mut options = show(Slot::temp(3), usize::MAX, view);
-        let picture = options.show.as_mut().unwrap();
-        (picture.absolute, picture.scale) = (absolute, scale);
-        returned(&valid(LISTING, &options).source).to_string()
+fn the_shader_goes_on_where_that_decides() {
+    let text = |listing: &str, most, pixels| {
+        let shader = valid(listing, &show(Slot::temp(2), most, pixels));
+        shader.source
     };
-    assert_eq!(shown(View::Color, false, 1.0), "vec4f(r3.rgb, 1.0)");
-    assert_eq!(
-        shown(View::Color, true, -0.5),
-        "vec4f(abs(r3.rgb) * -0.5, 1.0)"
-    );
-    assert_eq!(
-        shown(View::Component(3), false, 1.0),
-        "vec4f(vec3f(r3.a), 1.0)"
-    );
-    assert_eq!(
-        shown(View::Magnitude, false, 2.0),
-        "vec4f(vec3f(length(r3.rgb) * 2.0), 1.0)"
-    );
-    assert_eq!(shown(View::Exact, true, 1.0), "abs(r3)");
+    let kept = text(LISTING, 0, ShownPixels::Kept);
+    let at = |part: &str| {
+        kept.find(part)
+            .unwrap_or_else(|| panic!("{part} in {kept}"))
+    };
+    assert!(at("let shown = r2;") < at("texld r2") && at("texld r2") < at("if killed {"));
+    assert_eq!(returned(&kept), "shown");
+    let discarded = text(LISTING, 0, ShownPixels::Discarded);
+    assert!(discarded.contains("if !killed {"), "{discarded}");
+    // All instructions have run at the end.
+    let end = text(LISTING, usize::MAX, ShownPixels::Kept);
+    assert_eq!(returned(&end), "r2");
+    // Nothing here discards.
+    let plain = LISTING.replace("texkill r1\n", "");
+    let cut = text(&plain, 0, ShownPixels::Kept);
+    assert!(!cut.contains("texld r2") && returned(&cut) == "r2", "{cut}");
+    let depth = "ps.1.4\ntexcrd r5.rgb, t0\nphase\ntexdepth r5\nmov r2, r5\nmov r0, r2\n";
+    let depth = text(depth, 1, ShownPixels::Kept);
+    assert_eq!(returned(&depth), "PixelOutput(shown, depth)");
 }
 
-/// `texkill` takes the pixel out of a picture, as on the CPU, but not out of a comparison of registers; fog and alpha test
-/// have no part in either.
+/// Between the halves of a pair the first has written what is shown, but the second reads what was there before.
+#[test]
+fn between_the_halves_of_a_pair() {
+    let listing =
+        "ps.1.4\ntexcrd r1.rgb, t1\ntexkill r1\nmov r2.rgb, c0\n+mov r2.a, r2.b\nmov r0, r2\n";
+    let source = valid(listing, &show(Slot::temp(2), 3, ShownPixels::Kept)).source;
+    let at = |part: &str| {
+        let found = source.match_indices(part).map(|(at, _)| at);
+        found.collect::<Vec<_>>()
+    };
+    let (before, back) = (at("let before_shown = r2;"), at("r2 = before_shown;"));
+    let (shown, second) = (at("let shown = r2;"), at("r2.b;"));
+    assert!(before < shown && shown < back && back < second, "{source}");
+    assert!(
+        [before, shown, back, second]
+            .iter()
+            .all(|found| found.len() == 1),
+        "{source}"
+    );
+}
+
+/// Fog and alpha test have no part in what is shown.
 #[test]
 fn what_takes_the_pixel_out() {
-    let text = |view| {
-        let mut options = show(Slot::temp(0), usize::MAX, view);
+    let text = |pixels| {
+        let mut options = show(Slot::temp(0), usize::MAX, pixels);
         options.alpha_test = Some(Compare::Greater);
         options.fog = Some(Fog {
             table: FogMode::None,
@@ -139,10 +157,10 @@ fn what_takes_the_pixel_out() {
         });
         valid(LISTING, &options).source
     };
-    let color = text(View::Color);
+    let kept = text(ShownPixels::Kept);
     assert!(
-        color.contains("if killed {") && !color.contains("fog_color"),
-        "{color}"
+        kept.contains("if killed {") && !kept.contains("fog_color"),
+        "{kept}"
     );
-    assert!(!text(View::Exact).contains("discard"));
+    assert!(!text(ShownPixels::All).contains("discard"));
 }
