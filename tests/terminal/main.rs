@@ -1,6 +1,7 @@
 //! The debugger in a real terminal: `tmux` gives one that can be looked into. Says so and passes where there is none.
 
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod tmux;
 

@@ -202,7 +202,7 @@ mod tests {
     #[test]
     fn shrinking_takes_the_mean() {
         // Columns of 0 and 200, two of them in each pixel: 100. Enlarged they stay as they are.
-        let columns = |x: u32, _: u32| [if x % 2 == 0 { 0 } else { 200 }; 3];
+        let columns = |x: u32, _: u32| [if x.is_multiple_of(2) { 0 } else { 200 }; 3];
         let crop = Crop::around([8, 8], [0, 0], 1);
         let small = resample(crop, [4, 4], columns);
         assert!(small.pixels().all(|p| p.0 == [100; 3]));

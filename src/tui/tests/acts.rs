@@ -217,3 +217,83 @@ fn the_output_scrolls() {
     mouse(&mut app, MouseEventKind::ScrollUp, x, y + 2);
     assert_eq!(app.model.output_below, 3);
 }
+
+/// Numbers that look random: the generator of Numerical Recipes.
+fn random(state: &mut u32) -> u32 {
+    *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+    *state >> 8
+}
+
+fn any_event(state: &mut u32) -> Event {
+    const KEYS: [KeyCode; 14] = [
+        KeyCode::Up,
+        KeyCode::Down,
+        KeyCode::Left,
+        KeyCode::Right,
+        KeyCode::Home,
+        KeyCode::End,
+        KeyCode::PageUp,
+        KeyCode::PageDown,
+        KeyCode::Enter,
+        KeyCode::Tab,
+        KeyCode::BackTab,
+        KeyCode::Esc,
+        KeyCode::Backspace,
+        KeyCode::Delete,
+    ];
+    const MICE: [MouseEventKind; 4] = [
+        MouseEventKind::Down(MouseButton::Left),
+        MouseEventKind::Drag(MouseButton::Left),
+        MouseEventKind::ScrollUp,
+        MouseEventKind::ScrollDown,
+    ];
+    let modifiers = [NONE, NONE, SHIFT, CONTROL][random(state) as usize % 4];
+    let key = |code| Event::Key(KeyEvent::new(code, modifiers));
+    match random(state) % 8 {
+        0 => Event::Mouse(MouseEvent {
+            kind: MICE[random(state) as usize % 4],
+            column: (random(state) % 130) as u16,
+            row: (random(state) % 45) as u16,
+            modifiers,
+        }),
+        1..=3 => key(KeyCode::Char(char::from(32 + (random(state) % 95) as u8))),
+        4 => key(KeyCode::F(1 + (random(state) % 12) as u8)),
+        5 => {
+            let commands = [
+                "watch r0.x",
+                "info registers",
+                "history",
+                "display t0",
+                "set r0 = 1",
+                "vertex 2",
+                "pixel 3,3",
+            ];
+            Event::Paste(format!(
+                "{}\n",
+                commands[random(state) as usize % commands.len()]
+            ))
+        }
+        _ => key(KEYS[random(state) as usize % KEYS.len()]),
+    }
+}
+
+#[test]
+fn no_sequence_of_events_is_too_much() {
+    let scene = scene();
+    let rendering = rendering(&scene);
+    let areas = [SMALL, LARGE, Rect::new(0, 0, 72, 18), Rect::new(0, 0, 9, 3)];
+    for seed in 0..6 {
+        let mut state = seed;
+        let mut app = pixel_app(&rendering, [1, 4]);
+        for number in 0..400 {
+            let area = areas[(number / 25) % areas.len()];
+            handle(&mut app, any_event(&mut state), area);
+            let mut buffer = Buffer::empty(area);
+            let theme = Theme {
+                colours: Colours::Indexed,
+            };
+            let cell = (number % 16 == 0).then_some([7, 15]);
+            app.screen(theme, cell).draw(&mut buffer);
+        }
+    }
+}

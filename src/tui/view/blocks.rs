@@ -48,7 +48,7 @@ pub(super) fn draw(
     }
     for [x, y] in marks.iter().filter_map(|mark| canvas.cell_of(*mark)) {
         let pixel = |y: u32| {
-            let row = u32::from(y) - u32::from(canvas.area.y) * 2;
+            let row = y - u32::from(canvas.area.y) * 2;
             image.get_pixel_checked(u32::from(x - canvas.area.x), row)
         };
         let upper = pixel(u32::from(y) * 2).map_or([0; 3], |pixel| pixel.0);

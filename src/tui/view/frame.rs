@@ -1,6 +1,5 @@
 //! The frame as a small picture, with the pixel marked.
 
-use super::registers::colour;
 use super::{Screen, blocks, clean, put};
 use crate::tui::picture::{Canvas, Crop, Placed};
 use image::RgbaImage;
@@ -112,6 +111,5 @@ pub(super) fn draw(
     for (row, line) in lines.into_iter().enumerate() {
         put(buf, divide(area).1, row, line);
     }
-    debug_assert_eq!(colour([1.0, 0.0, 0.0, 1.0]), [255, 0, 0]);
     format!("{x}, {y}")
 }

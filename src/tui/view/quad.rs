@@ -61,11 +61,11 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) -> Str
             Span::raw(format!("  from {left}, {top}  (> the pixel, h helper)")),
         ]),
     );
-    for other in 0..4 {
+    for (other, value) in values.into_iter().enumerate() {
         let mark = if other == lane { '>' } else { ' ' };
         let helper = if run.helpers[other] { 'h' } else { ' ' };
         let label = format!("{mark}{},{}{helper}", other & 1, other >> 1);
-        let shown = register(&label, values[other], [written, WriteMask::NONE], screen);
+        let shown = register(&label, value, [written, WriteMask::NONE], screen);
         put(buf, area, other + 1, shown);
     }
     // In the row and in the column of the pixel itself, as its level of detail is found.
