@@ -59,6 +59,13 @@ pub(super) struct Arguments {
     /// Does the commands of a file, a line each, and ends; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     script: Option<String>,
+    /// Asks for commands line by line, instead of showing everything on a whole screen.
+    #[arg(long)]
+    plain: bool,
+    /// How the screen shows pictures: blocks, kitty, sixel or iterm2. Without it, the best that the terminal says it knows.
+    #[cfg(feature = "tui")]
+    #[arg(long, value_name = "WAY", conflicts_with = "plain")]
+    pictures: Option<crate::tui::Protocol>,
     /// Whose rules: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
@@ -152,9 +159,19 @@ fn of_scene(arguments: &Arguments) -> Outcome {
 
 /// Does the commands that were given, or asks for some.
 fn converse(arguments: &Arguments, session: Session<'_>) -> Outcome {
+    let given = !arguments.commands.is_empty() || arguments.script.is_some();
+    #[cfg(feature = "tui")]
+    if !given && !arguments.plain && arguments.file != "-" && crate::tui::available() {
+        let inputs = [arguments.file.clone()];
+        let perform = move |effect: &texcrd::debug::Effect| {
+            effects::perform(effect, &inputs).map_err(|why| why.to_string())
+        };
+        let console = texcrd::debug::Console::new();
+        let shown = crate::tui::run(session, console, Box::new(perform), arguments.pictures);
+        return shown.map_err(|why| Failure::Io(format!("the terminal: {why}")));
+    }
     let mut front = line::Front::new(session, &arguments.file);
     front.greet()?;
-    let given = !arguments.commands.is_empty() || arguments.script.is_some();
     for command in &arguments.commands {
         if !front.scripted(command, "--command")? {
             return Ok(());

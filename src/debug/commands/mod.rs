@@ -41,6 +41,8 @@ use table::Command;
 pub struct Console {
     /// Breakpoints, watchpoints, and what is caught.
     pub stops: Stops,
+    /// Whether the front shows what is displayed by itself, so that answers to commands leave it out.
+    pub quiet_displays: bool,
     displays: Vec<Display>,
     /// Breakpoints that are deleted when they are hit.
     temporary: Vec<u32>,

@@ -457,7 +457,9 @@ fn reason_text(
 /// Where one is, and what is displayed.
 pub(super) fn arrival(console: &Console, session: &Session<'_>) -> Text {
     let mut text = location(session);
-    text.append(look::displayed(console, session));
+    if !console.quiet_displays {
+        text.append(look::displayed(console, session));
+    }
     text
 }
 
