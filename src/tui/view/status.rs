@@ -27,6 +27,8 @@ pub(super) fn draw(screen: &Screen<'_, '_>, buf: &mut Buffer, area: Rect) {
     let right = format!("{} of {}  ? help ", place.at, run.moments.len());
     let file = run.listing.sources.file_of(run.listing.program.span.start);
     let file = file.map_or(String::new(), |file| clean(file.name()));
+    // Its folders take room that the rest needs.
+    let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
     let runs = session.runs().len();
     let which = if runs > 1 {
         format!("  run {} of {runs}", place.run + 1)
