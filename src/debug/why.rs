@@ -144,6 +144,11 @@ fn slots_read(op: Op, i: usize, component: usize) -> WriteMask {
     }
 }
 
+/// The first source, and the second or the third.
+fn either(second: bool) -> [bool; 3] {
+    [true, second, !second]
+}
+
 /// Which sources could have made a difference to a component.
 fn deciding(op: Op, reads: &[Read], component: usize, lane: usize) -> [bool; 3] {
     let value = |i: usize| {
@@ -162,10 +167,11 @@ fn deciding(op: Op, reads: &[Read], component: usize, lane: usize) -> [bool; 3] 
         Op::Mad => [factors[0], factors[1], true],
         Op::Lrp if a == 0.0 => [true, false, true],
         Op::Lrp if a == 1.0 => [true, true, false],
-        Op::Cmp => [true, a >= 0.0, !(a >= 0.0)],
-        Op::Cnd => [true, a > 0.5, !(a > 0.5)],
-        Op::Min if a != b => [a < b, !(a < b), false],
-        Op::Max if a != b => [a >= b, !(a >= b), false],
+        // With NaN the comparison is false, as it is in the instruction.
+        Op::Cmp => either(a >= 0.0),
+        Op::Cnd => either(a > 0.5),
+        Op::Min if a != b => [a < b, b <= a || a.is_nan() || b.is_nan(), false],
+        Op::Max if a != b => [a >= b, b > a || a.is_nan() || b.is_nan(), false],
         _ => [true; 3],
     }
 }
