@@ -1,6 +1,8 @@
 //! The program `texcrd`: runs, checks and steps shader listings of Direct3D 8.
 
 mod cli;
+#[cfg(feature = "servers")]
+mod servers;
 #[cfg(feature = "tui")]
 mod tui;
 

@@ -8,6 +8,8 @@ mod asm;
 mod baked;
 mod check;
 mod compare;
+#[cfg(feature = "servers")]
+mod dap;
 mod debug;
 mod diagnostics;
 mod dis;
@@ -54,6 +56,8 @@ enum Command {
     Asm(asm::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
+    #[cfg(feature = "servers")]
+    Dap(dap::Arguments),
     Debug(debug::Arguments),
     Dis(dis::Arguments),
     Eval(eval::Arguments),
@@ -110,6 +114,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Debug(arguments) => debug::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        #[cfg(feature = "servers")]
+        Command::Dap(arguments) => dap::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),

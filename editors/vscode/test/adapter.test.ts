@@ -62,7 +62,8 @@ test('the adapter says what it can', options, async () => {
       assert.equal(capabilities[capability], true, capability);
     }
     const filters = capabilities.exceptionBreakpointFilters ?? [];
-    assert.deepEqual(filters.map(({ filter }) => filter).toSorted(), ['clamp', 'infinity', 'nan', 'uninitialised']);
+    // The names that the debugger's commands have for them.
+    assert.deepEqual(filters.map(({ filter }) => filter).toSorted(), ['clamp', 'inf', 'nan', 'range', 'sample', 'uninit']);
     assert.ok(filters.every(({ label }) => label.length > 0));
   } finally {
     await session.client.stop();
@@ -327,13 +328,13 @@ test('exception filters stop where something happens that seldom should', option
   const uninitialised = { program: fixture('uninitialised.psh'), dialect: 'lenient', set: { c0: [0.5, 0.5, 0.5, 0.5] } };
   const cases: [filter: string, launch: object, line: number, lines: number[]][] = [
     // 3e38 + 3e38 is more than the largest number of 32 bits.
-    ['infinity', nan, 3, [2, 3, 4, 5]],
+    ['inf', nan, 3, [2, 3, 4, 5]],
     // Infinity less infinity.
     ['nan', nan, 4, [2, 3, 4, 5]],
     // 0.75 + 1 (pixel shaders clamp the constant 2) is saturated.
     ['clamp', clamp, 3, [2, 3, 4]],
     // r1 was never written.
-    ['uninitialised', uninitialised, 3, [2, 3, 4]],
+    ['uninit', uninitialised, 3, [2, 3, 4]],
   ];
   for (const [filter, launch, line, lines] of cases) {
     await Session.launched({ ...launch, stopOnEntry: false }, { exceptions: [filter] }, async (session) => {

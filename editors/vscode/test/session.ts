@@ -24,13 +24,20 @@ export function fixture(name: string): string {
   return path.join(FIXTURES, name);
 }
 
-/** The client, made to reject with all that an adapter says of a failure: people are shown the error in the body, not the short message. */
+/**
+ * The client, made to reject with all that an adapter says of a failure (people are shown the error in the body, not the short message), and to keep
+ * what was said.
+ */
 class Client extends DebugClient {
+  /** Every message of the adapter, as it came. */
+  readonly said: DebugProtocol.ProtocolMessage[] = [];
+
   constructor() {
     super(TEXCRD!, 'dap', 'texcrd', { cwd: FIXTURES });
     const self = this as unknown as { dispatch: (body: string) => void };
     const dispatch = self.dispatch.bind(this);
     self.dispatch = (body) => {
+      this.said.push(JSON.parse(body));
       const message = JSON.parse(body);
       if (message.type === 'response' && !message.success && message.body?.error) {
         const { format, variables = {} } = message.body.error as DebugProtocol.Message;
@@ -50,7 +57,7 @@ export class Session {
   private readonly turns: Turn[] = [];
   private awaited: ((turn: Turn) => void) | undefined;
 
-  private constructor() {
+  constructor() {
     this.client.defaultTimeout = PATIENCE;
     this.client.on('stopped', ({ body }) => this.take({ stopped: body }));
     this.client.on('terminated', () => this.take('terminated'));

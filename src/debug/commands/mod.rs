@@ -238,7 +238,8 @@ impl Console {
         text
     }
 
-    fn new_stop(&mut self) -> u32 {
+    /// The number of a new breakpoint or watchpoint, also for those that a front puts into [`Self::stops`] itself.
+    pub fn new_stop(&mut self) -> u32 {
         self.last_stop += 1;
         self.last_stop
     }
