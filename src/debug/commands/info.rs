@@ -70,7 +70,7 @@ pub(super) static TOPICS: [Topic; 13] = [
     row(
         "all",
         "registers, constants, inputs, outputs, textures, phase, budget",
-        |c, s, r| all(c, s, r),
+        all,
     ),
 ];
 

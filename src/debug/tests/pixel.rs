@@ -123,11 +123,11 @@ fn agrees(rendering: &Rendering<'_>, subject: PixelSubject<'_>) {
     let registers = pixel.registers(last + 1);
     assert_eq!(registers.slot(Slot::R0, pixel.lane), event.merge.shaded);
     assert_eq!(registers.killed()[pixel.lane], event.merge.killed);
-    let stages = pixel.moments.iter().filter_map(|m| match &m.event {
+    let last = pixel.moments.iter().rev().find_map(|m| match &m.event {
         Event::Merge(stage) => Some(stage.as_ref()),
         _ => None,
     });
-    match stages.last() {
+    match last {
         Some(MergeStage::Write { before, after, .. }) => {
             assert_eq!(
                 (event.merge.fate(), *before, *after),
