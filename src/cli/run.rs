@@ -179,7 +179,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// A size of the same shape that is at most as wide as pictures on a sheet.
-fn shrunk([width, height]: [u32; 2]) -> [u32; 2] {
+pub(super) fn shrunk([width, height]: [u32; 2]) -> [u32; 2] {
     let least = width.min(SHEET_WIDTH);
     let height = u64::from(height) * u64::from(least) / u64::from(width.max(1));
     [least, (height as u32).max(1)]

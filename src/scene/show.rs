@@ -83,7 +83,6 @@ fn register(text: &str) -> Option<What> {
         Some((name, letters)) => (name, mask(letters, XYZW).or_else(|| mask(letters, RGBA))?),
         None => (register, WriteMask::XYZ),
     };
-    // Files whose prefix begins another's come last.
     let files = [
         RegisterFile::TexCrdOut,
         RegisterFile::AttrOut,
@@ -91,15 +90,12 @@ fn register(text: &str) -> Option<What> {
         RegisterFile::Texture,
         RegisterFile::Input,
     ];
-    files.into_iter().find_map(|file| {
-        let (prefix, index) = name.split_at_checked(file.row().prefix.len())?;
-        let fits = prefix.eq_ignore_ascii_case(file.row().prefix);
-        Some(What::Register {
-            file,
-            index: index.parse().ok().filter(|_| fits)?,
-            components,
-            line,
-        })
+    let (file, index) = RegisterFile::named(name).filter(|(file, _)| files.contains(file))?;
+    Some(What::Register {
+        file,
+        index,
+        components,
+        line,
     })
 }
 

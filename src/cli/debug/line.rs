@@ -80,7 +80,7 @@ impl<'a> Front<'a> {
         }
         self.say(&reply.text)?;
         if let Some(effect) = &reply.effect {
-            let text = effects::perform(effect, &self.inputs);
+            let text = effects::perform(effect, &self.state.borrow().session, &self.inputs);
             let text = text.map_err(|why| Failure::Input(format!("{place}: {why}")))?;
             self.say(&text)?;
         }
@@ -138,7 +138,8 @@ impl<'a> Front<'a> {
             let reply = self.state.borrow_mut().execute(&line);
             self.say(&reply.text)?;
             if let Some(effect) = &reply.effect {
-                match effects::perform(effect, &self.inputs) {
+                let done = effects::perform(effect, &self.state.borrow().session, &self.inputs);
+                match done {
                     Ok(text) => self.say(&text)?,
                     Err(why) => anstream::eprintln!("{why}"),
                 }

@@ -2,7 +2,7 @@
 
 use super::{Arguments, Console, Fault, Outcome, explain, tell, travel};
 use crate::debug::expression::{Expression, Scope, Value};
-use crate::debug::moment::{Event, Moment, Quad};
+use crate::debug::moment::{Event, MergeStage, Moment, Quad, Target};
 use crate::debug::run::{Registers, Run};
 use crate::debug::session::Session;
 use crate::debug::text::{Line, Style, Text};
@@ -36,7 +36,7 @@ pub(super) fn set(
         let value = expression.evaluate(&Scope { lane, ..scope })?;
         *pixel = spread(&value, mask)?;
     }
-    if let crate::debug::moment::Target::Constant(_) = target {
+    if let Target::Constant(_) = target {
         // A constant is the same for all of them: the value of the pixel that is looked at.
         quad = [quad[scope.lane & 3]; 4];
     }
@@ -52,11 +52,8 @@ pub(super) fn set(
     let after = session.registers().target(target)[lane];
     let mut text = Text::default();
     let line = tell::named(&name).and(tell::numbers(after, mask), Style::Changed);
-    let line = tell::swatch(line, kind, mask, after);
-    text.line(line.and(
-        format!("   (was {})", tell::numbers(before[lane], mask)),
-        Style::Dim,
-    ));
+    let was = format!("   (was {})", tell::numbers(before[lane], mask));
+    text.line(tell::swatch(line.and(was, Style::Dim), kind, mask, after));
     text.append(travel::arrival(console, session));
     Ok(text.into())
 }
@@ -115,7 +112,7 @@ pub(super) fn diff(
     Ok(text.into())
 }
 
-/// Where two recordings of one run part, and what comes out of both. Nothing if they do not.
+/// Where two recordings of one run part, and what comes out of both. Nothing if nothing is set in it and they do not.
 fn difference(old: &Run<'_>, new: &Run<'_>) -> Text {
     let mut text = Text::default();
     let set = |moment: &&Moment| moment.event == Event::Set;
@@ -143,12 +140,13 @@ fn difference(old: &Run<'_>, new: &Run<'_>) -> Text {
         parts(a, b, lane).then_some((a, b))
     });
     let results = results(old, new);
-    if parted.is_none() && results.is_empty() {
+    if text.is_empty() && parted.is_none() && results.is_empty() {
         return text;
     }
     text.lines.insert(0, tell::run_title(new));
-    if let Some((a, b)) = parted {
-        text.append(parting(new, a, b));
+    match parted {
+        Some((a, b)) => text.append(parting(new, a, b)),
+        None => text.line("   every other value is the same"),
     }
     text.append(results);
     text
@@ -201,6 +199,23 @@ fn two_values(name: &str, old: &str, new: &str) -> Line {
         .and(format!("   (old run: {old})"), Style::Dim)
 }
 
+/// What the target holds behind a run of a pixel.
+fn held(run: &Run<'_>) -> Option<String> {
+    run.moments
+        .iter()
+        .rev()
+        .find_map(|moment| match &moment.event {
+            Event::Merge(stage) => match stage.as_ref() {
+                MergeStage::Write { after, .. } => {
+                    let [r, g, b, a] = after.color;
+                    Some(format!("#{r:02x}{g:02x}{b:02x} alpha {a}"))
+                }
+                _ => None,
+            },
+            _ => None,
+        })
+}
+
 /// The results of both that differ.
 fn results(old: &Run<'_>, new: &Run<'_>) -> Text {
     let mut text = Text::default();
@@ -216,6 +231,11 @@ fn results(old: &Run<'_>, new: &Run<'_>) -> Text {
                 &tell::numbers(y, all),
             ));
         }
+    }
+    if let [Some(x), Some(y)] = [held(old), held(new)]
+        && x != y
+    {
+        text.line(two_values("the target", &x, &y));
     }
     if a.killed()[lane] != b.killed()[lane] {
         let word = |killed: bool| if killed { "discarded" } else { "kept" };

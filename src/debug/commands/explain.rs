@@ -88,16 +88,28 @@ fn cause_lines(run: &Run<'_>, cause: &Cause) -> Text {
         Event::Input(source) => {
             line.and(tell::source_text(*source, run.lane, cause.mask), Style::Dim)
         }
-        Event::Step { step, reads, .. } => {
+        Event::Step {
+            step,
+            reads,
+            sample,
+            ..
+        } => {
             let step = run.listing.kernel.steps.get(*step);
+            let (source, used) = match sample {
+                Some(sample) => {
+                    let (source, used) = sample::source(run, sample);
+                    (format!("{source} at "), used)
+                }
+                None => (String::new(), WriteMask::ALL),
+            };
             let texts = reads.iter().enumerate().filter_map(|(i, read)| {
                 let slots = step.map_or(read.slots, |step| step.op.slots_read(i, cause.mask));
-                tell::read_text(run, read, slots)
+                tell::read_text(run, read, slots.and(used))
             });
             let texts: Vec<String> = texts.collect();
             match texts.is_empty() {
                 true => line,
-                false => line.and(format!("   from {}", texts.join(", ")), Style::Dim),
+                false => line.and(format!("   from {source}{}", texts.join(", ")), Style::Dim),
             }
         }
         _ => line,

@@ -1,12 +1,9 @@
 //! `print`, `display`, `list`, `where`: what is looked at where one is.
 
-use super::{
-    Arguments, Console, Display, Effect, Fault, Outcome, Reply, explain, place, scene, tell, travel,
-};
+use super::{Arguments, Console, Display, Fault, Outcome, Reply, place, tell, travel};
 use crate::debug::expression::{Expression, Format};
 use crate::debug::run::Listing;
 use crate::debug::session::Session;
-use crate::debug::subject::Subject;
 use crate::debug::text::{Line, Style, Text};
 
 /// More displays than this are refused.
@@ -196,51 +193,6 @@ pub(super) fn whereabouts(
     }
     text.append(travel::arrival(console, session));
     Ok(text.into())
-}
-
-/// `show r2@12 [FILE]`: registers over the whole frame.
-pub(super) fn show(
-    _: &mut Console,
-    session: &mut Session<'_>,
-    arguments: &Arguments<'_>,
-) -> Outcome {
-    let mut shows = Vec::new();
-    let mut path = None;
-    for word in arguments.words() {
-        if word.ends_with(".png") {
-            path = Some(word.to_string());
-            continue;
-        }
-        let (register, line) = word.split_once('@').unwrap_or((word, ""));
-        explain::register(session, register)?;
-        shows.push(match line {
-            "" => format!("{register}{}", here(session)),
-            _ => word.to_string(),
-        });
-    }
-    if shows.is_empty() {
-        return Err(
-            "show which register? `show r2@12`, `show r2` here, `show r2@12 r2.png`".into(),
-        );
-    }
-    if let Subject::Listing(_) = session.subject() {
-        return Err(scene::BY_HAND.into());
-    }
-    Ok(Reply {
-        effect: Some(Effect::Picture { shows, path }),
-        ..Reply::default()
-    })
-}
-
-/// `@12` behind the instruction that ran last; nothing at the end.
-fn here(session: &Session<'_>) -> String {
-    let (Some(run), Some(last)) = (session.run(), session.last_moment()) else {
-        return String::new();
-    };
-    let line = last
-        .instruction
-        .map(|instruction| run.listing.line(instruction));
-    line.map_or(String::new(), |line| format!("@{line}"))
 }
 
 pub(super) fn quit(_: &mut Console, _: &mut Session<'_>, _: &Arguments<'_>) -> Outcome {

@@ -34,6 +34,8 @@ use super::session::Session;
 use super::stops::Stops;
 use super::text::{Line, Style, Text};
 use crate::isa::ShaderKind;
+#[cfg(feature = "scene")]
+use crate::sheet::Tile;
 use table::Command;
 
 /// What a person has set up, beside the session.
@@ -89,12 +91,15 @@ pub enum Effect {
         /// Its content.
         text: String,
     },
-    /// Picture registers over the whole frame.
+    /// Picture registers over the whole frame: one picture, or a sheet of several.
+    #[cfg(feature = "scene")]
     Picture {
-        /// What to show, as `run --show` takes it: `r2@12`.
-        shows: Vec<String>,
-        /// Where the picture goes; without one it is shown where the front can.
-        path: Option<String>,
+        /// The draw whose registers are shown.
+        draw: String,
+        /// What to show.
+        tiles: Vec<Tile>,
+        /// Where the picture goes.
+        path: String,
     },
 }
 

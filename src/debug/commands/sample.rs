@@ -12,7 +12,7 @@ use crate::texture::{CUBE_FACES, Tap, Texture, TextureKind, footprint};
 /// The texels of a sample that are told one by one.
 const MOST_TEXELS: usize = 4;
 
-/// One to six lines about a sample.
+/// Two to six lines about a sample; in short only that there is no texture.
 pub(super) fn lines(run: &Run<'_>, sample: &Sample, detail: Detail) -> Text {
     let mut text = Text::default();
     let stage = sample.stage;
@@ -29,10 +29,10 @@ pub(super) fn lines(run: &Run<'_>, sample: &Sample, detail: Detail) -> Text {
         ));
         return text;
     };
-    let used = match texture.kind() {
-        TextureKind::Texture2D => WriteMask::XY,
-        TextureKind::Cube | TextureKind::Volume => WriteMask::XYZ,
-    };
+    if detail == Detail::Short {
+        return text;
+    }
+    let used = used_coordinates(texture);
     let [u, v, w] = coordinates;
     let level = sample.level[run.lane & 3];
     text.line(remark(
@@ -44,9 +44,6 @@ pub(super) fn lines(run: &Run<'_>, sample: &Sample, detail: Detail) -> Text {
         ),
         Style::Plain,
     ));
-    if detail == Detail::Short {
-        return text;
-    }
     let mut taps = footprint(texture, sampler, coordinates, level).taps;
     taps.retain(|tap| tap.weight > 0.0);
     // The heaviest first; of equally heavy ones the order of reading stays.
@@ -58,6 +55,30 @@ pub(super) fn lines(run: &Run<'_>, sample: &Sample, detail: Detail) -> Text {
         text.line(remark(format!("  and {more} more texels"), Style::Dim));
     }
     text
+}
+
+/// The texture of a stage in a few words, and the coordinates that count there.
+pub(super) fn source(run: &Run<'_>, sample: &Sample) -> (String, WriteMask) {
+    let stage = sample.stage;
+    let texture = run
+        .environment
+        .stages
+        .get(stage)
+        .and_then(|stage| stage.texture);
+    match texture {
+        None => (format!("stage {stage}"), WriteMask::XYZ),
+        Some(texture) => {
+            let words = format!("stage {stage} ({})", texture_text(texture));
+            (words, used_coordinates(texture))
+        }
+    }
+}
+
+fn used_coordinates(texture: &Texture) -> WriteMask {
+    match texture.kind() {
+        TextureKind::Texture2D => WriteMask::XY,
+        TextureKind::Cube | TextureKind::Volume => WriteMask::XYZ,
+    }
 }
 
 /// `cube 128×128 a8r8g8b8`.

@@ -1,27 +1,28 @@
-//! What only a scene has: other pixels and vertices, the history of a pixel.
+//! What only a scene has: other pixels and vertices, the history of a pixel, registers over the whole frame.
 
 use super::{Arguments, Console, Outcome};
 use crate::debug::session::Session;
 use crate::debug::text::Text;
 
 #[cfg(feature = "scene")]
-pub(super) use of_scenes::{history, pixel, touched, vertex};
+pub(super) use of_scenes::{history, pixel, show, touched, vertex};
 #[cfg(not(feature = "scene"))]
-pub(super) use without::{history, pixel, touched, vertex};
+pub(super) use without::{history, pixel, show, touched, vertex};
 
 /// Why a listing has none of this.
-pub(super) const BY_HAND: &str =
-    "a listing with values set by hand has no picture: debug a scene for that";
+const BY_HAND: &str = "a listing with values set by hand has no picture: debug a scene for that";
 
 #[cfg(feature = "scene")]
 mod of_scenes {
     use super::*;
-    use crate::debug::commands::Fault;
     use crate::debug::commands::merge::stored_line;
+    use crate::debug::commands::{Effect, Fault, Reply};
     use crate::debug::pixel::{PixelSubject, VertexSubject, Which};
     use crate::debug::subject::Subject;
     use crate::debug::text::{Line, Style};
-    use crate::scene::{Output, PixelEvent, Rendering};
+    use crate::isa::ShaderKind;
+    use crate::raster::Look;
+    use crate::scene::{Output, PixelEvent, Rendering, ShowExpression};
 
     /// The scene of a session as it was rendered.
     fn rendering<'a>(session: &Session<'a>) -> Result<&'a Rendering<'a>, Fault> {
@@ -78,6 +79,68 @@ mod of_scenes {
         let subject = VertexSubject::new(rendering(session)?, number, draw);
         let subject = subject.map_err(|why| why.to_string())?;
         replace(console, session, Subject::Vertex(subject))
+    }
+
+    /// `show r2@12 [FILE.png]`: registers over the whole frame.
+    pub(in crate::debug::commands) fn show(
+        _: &mut Console,
+        session: &mut Session<'_>,
+        arguments: &Arguments<'_>,
+    ) -> Outcome {
+        let rendering = rendering(session)?;
+        let draw = match session.subject() {
+            Subject::Pixel(subject) => subject.draw(),
+            Subject::Vertex(subject) => Some(subject.draw()),
+            Subject::Listing(_) => None,
+        };
+        let draw = draw.ok_or("there is no draw")?;
+        let (mut names, mut tiles, mut path) = (Vec::new(), Vec::new(), None);
+        for word in arguments.words() {
+            if word.ends_with(".png") {
+                path = Some(word.to_string());
+                continue;
+            }
+            let text = match is_temporary(word) {
+                true => format!("{word}{}", here(session)),
+                false => word.to_string(),
+            };
+            let expression: ShowExpression = text.parse().map_err(|why| format!("{why}"))?;
+            let shown = expression.tiles(rendering.scene(), draw, Look::default(), false);
+            tiles.extend(shown.map_err(|why| why.to_string())?);
+            names.push(text);
+        }
+        if tiles.is_empty() {
+            return Err(
+                "show which register? `show r2@12`, `show r2` here, `show all sheet.png`".into(),
+            );
+        }
+        let path = path.unwrap_or_else(|| match names.as_slice() {
+            [name] => format!("{name}.png"),
+            _ => "sheet.png".to_string(),
+        });
+        let draw = draw.name.to_string();
+        Ok(Reply {
+            effect: Some(Effect::Picture { draw, tiles, path }),
+            ..Reply::default()
+        })
+    }
+
+    /// Whether a word names a register that holds something else on each line: no line stands with it, and it is no input or output.
+    fn is_temporary(word: &str) -> bool {
+        !word.contains('@') && word.starts_with(['r', 'R', 't', 'T'])
+    }
+
+    /// `@12` behind the instruction of the pixel shader that ran last; nothing elsewhere and at the end.
+    fn here(session: &Session<'_>) -> String {
+        let (Some(run), Some(last)) = (session.run(), session.last_moment()) else {
+            return String::new();
+        };
+        match last.instruction {
+            Some(number) if run.listing.kind() == ShaderKind::Pixel => {
+                format!("@{}", run.listing.line(number))
+            }
+            _ => String::new(),
+        }
     }
 
     /// `history [N]`: what touched the pixel, or another of these primitives.
@@ -170,6 +233,8 @@ mod without {
     pub(in crate::debug::commands) use pixel as vertex;
 
     pub(in crate::debug::commands) use pixel as history;
+
+    pub(in crate::debug::commands) use pixel as show;
 
     pub(in crate::debug::commands) fn touched(_: &Session<'_>) -> Text {
         Text::default()

@@ -243,8 +243,8 @@ pub(super) static COMMANDS: [Command; 47] = [
         .with("[REGISTER]...", "registers of the 2×2 pixels, helpers marked, and the levels of detail of the last sample")
         .repeated()
         .completed(Takes::Expression),
-    row(Look, "show", &["sh"], look::show)
-        .with("REGISTER[@LINE]... [FILE.png]", "a register over the whole frame, after a line or after the last instruction")
+    row(Look, "show", &["sh"], scene::show)
+        .with("all|REGISTER[@LINE]... [FILE.png]", "a register over the whole frame, after a line or after the last instruction")
         .completed(Takes::Expression),
     row(Explain, "why", &["w"], explain::why)
         .with("[REGISTER[.MASK]]", "the instructions that made a value, in their order, with what they read")

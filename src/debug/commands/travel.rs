@@ -479,11 +479,15 @@ pub(super) fn location(session: &Session<'_>) -> Text {
     };
     if let Some(number) = moment.instruction {
         let line = tell::instruction(run, number, "->", Style::Marked);
-        let group = run.group(at);
-        let rows = group.len();
-        text.line(match at - group.start {
-            _ if rows < 2 => line,
-            row => line.and(format!("   (part {} of {rows})", row + 1), Style::Dim),
+        // Values that were set by hand may stand between the parts.
+        let parts = run.moments.iter().enumerate();
+        let parts = parts.filter(|(_, other)| other.instruction == Some(number));
+        let (before, all) = parts.fold((0, 0), |(before, all), (other, _)| {
+            (before + usize::from(other < at), all + 1)
+        });
+        text.line(match all {
+            1 => line,
+            _ => line.and(format!("   (part {} of {all})", before + 1), Style::Dim),
         });
         return text;
     }

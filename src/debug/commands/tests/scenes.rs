@@ -111,16 +111,20 @@ fn a_pixel_is_told_from_its_vertices_to_the_target() {
     let arrived = talk.say("c");
     assert!(arrived.starts_with("pixel 3,1: ps.1.1, "), "{arrived}");
     assert!(arrived.contains("\nbreakpoint 1\n"), "{arrived}");
-    let mut reply = |line: &str| talk.console.execute(&mut talk.session, line);
-    let Some(Effect::Picture { shows, path }) = reply("show r0@3 t0 out.png").effect else {
+    let mut effect = |line: &str| talk.console.execute(&mut talk.session, line).effect;
+    // t0 after the last instruction, r0 after the one that is named.
+    let Some(Effect::Picture { draw, tiles, path }) = effect("show r0@3 t0 out.png") else {
         panic!("show is for the front");
     };
-    assert_eq!(
-        (shows, path),
-        (vec!["r0@3".into(), "t0@2".into()], Some("out.png".into()))
-    );
+    let captions: Vec<&str> = tiles.iter().map(|tile| tile.caption.as_str()).collect();
+    assert_eq!((draw.as_str(), path.as_str()), ("front", "out.png"));
+    assert_eq!(captions, ["r0@3", "t0@2"]);
+    let Some(Effect::Picture { path, .. }) = effect("show t0") else {
+        panic!("show is for the front");
+    };
+    assert_eq!(path, "t0@2.png");
     talk.fails("show", "which register");
-    talk.fails("show r9", "ps.1.1 has no r9");
+    talk.fails("show r9", "no r9");
 }
 
 #[test]
