@@ -99,8 +99,11 @@ const SHEET_WIDTH: u32 = 320;
 
 /// The value parser of `--scale`.
 fn scale(text: &str) -> Result<f32, String> {
-    let number = text.parse().ok().filter(|n: &f32| n.is_finite());
-    number.ok_or_else(|| format!("`{text}` is no number"))
+    let number = text
+        .parse()
+        .ok()
+        .filter(|n: &f32| n.is_finite() && *n != 0.0);
+    number.ok_or_else(|| format!("`{text}` is no number other than 0"))
 }
 
 impl Arguments {

@@ -53,7 +53,7 @@ pub(super) struct App<'a> {
 }
 
 /// Does what a console leaves to its front; gives what there is to say of it, or why it could not be done.
-pub(crate) type Perform<'a> = Box<dyn FnMut(&Effect) -> Result<Text, String> + 'a>;
+pub(crate) type Perform<'a> = Box<dyn FnMut(&Effect, &Session<'a>) -> Result<Text, String> + 'a>;
 
 impl<'a> App<'a> {
     /// A front for a session.
@@ -230,7 +230,7 @@ impl<'a> App<'a> {
         let reply = self.console.execute(&mut self.session, command);
         self.model.say(reply.text);
         if let Some(effect) = reply.effect {
-            match (self.perform)(&effect) {
+            match (self.perform)(&effect, &self.session) {
                 Ok(text) => self.model.say(text),
                 Err(why) => self.model.complain(why),
             }

@@ -51,7 +51,9 @@ fn picture(session: &Session<'_>, draw: &str, tiles: &[Tile], path: &Path) -> Re
             pictures: tiles.iter().map(|tile| tile.picture).collect(),
         }),
     };
-    let drawn = scene::draw_on_cpu(rendering.scene(), "show", &options)?;
+    // Without a bar, which would be drawn over a screen.
+    let drawn = (rendering.scene().rendering(&options, &|_| {}))
+        .map_err(|error| Failure::Input(format!("show: {error}")))?;
     let dressing = Dressing {
         captions: true,
         bars: true,

@@ -163,8 +163,8 @@ fn converse(arguments: &Arguments, session: Session<'_>) -> Outcome {
     #[cfg(feature = "tui")]
     if !given && !arguments.plain && arguments.file != "-" && crate::tui::available() {
         let inputs = [arguments.file.clone()];
-        let perform = move |effect: &texcrd::debug::Effect| {
-            effects::perform(effect, &inputs).map_err(|why| why.to_string())
+        let perform = move |effect: &texcrd::debug::Effect, session: &Session<'_>| {
+            effects::perform(effect, session, &inputs).map_err(|why| why.to_string())
         };
         let console = texcrd::debug::Console::new();
         let shown = crate::tui::run(session, console, Box::new(perform), arguments.pictures);

@@ -6,7 +6,8 @@ use crate::debug::moment::{Event, MergeStage, Moment, Quad, Target};
 use crate::debug::run::{Registers, Run};
 use crate::debug::session::Session;
 use crate::debug::text::{Line, Style, Text};
-use crate::isa::WriteMask;
+use crate::isa::{ShaderKind, WriteMask};
+use crate::semantics;
 
 /// More values set by hand than this are refused.
 const MOST_EDITS: usize = 1000;
@@ -42,6 +43,11 @@ pub(super) fn set(
     }
     let run = scope.run;
     let kind = run.listing.kind();
+    let asked = quad;
+    if let (Target::Constant(_), ShaderKind::Pixel) = (target, kind) {
+        // As when the constant is set before the shader runs.
+        quad = quad.map(|value| value.map(semantics::constant));
+    }
     let name = tell::target_name(target, kind) + &tell::mask_text(target, mask, kind);
     let (lane, before) = (run.lane & 3, scope.registers.target(target));
     if !session.set(target, mask, quad) {
@@ -54,6 +60,10 @@ pub(super) fn set(
     let line = tell::named(&name).and(tell::numbers(after, mask), Style::Changed);
     let was = format!("   (was {})", tell::numbers(before[lane], mask));
     text.line(tell::swatch(line.and(was, Style::Dim), kind, mask, after));
+    if asked != quad {
+        let words = "clamped to −1…1, as Direct3D 8 clamps the constants of a pixel shader";
+        text.line(tell::remark(words, Style::Remarkable));
+    }
     text.append(travel::arrival(console, session));
     Ok(text.into())
 }

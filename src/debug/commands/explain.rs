@@ -126,8 +126,12 @@ pub(super) fn quad(
     arguments: &Arguments<'_>,
 ) -> Outcome {
     let run = session.run().ok_or("there is no run")?;
-    let pixels = pixels(run)
-        .ok_or("only a pixel of a scene has a quad: here all four pixels are the same")?;
+    let pixels = pixels(run).ok_or(match run.kind {
+        RunKind::Vertex { .. } => {
+            "this is a vertex; the pixel that it belongs to has a quad: `down` goes there"
+        }
+        _ => "only a pixel of a scene has a quad",
+    })?;
     let kind = run.listing.kind();
     let mut rows: Vec<(Target, WriteMask)> = Vec::new();
     for word in arguments.words() {

@@ -1,12 +1,14 @@
 //! `export`: every moment of every run, as JSON, CSV or Markdown.
 
-use super::{Arguments, Console, Effect, Fault, Outcome, Reply, table, tell};
+use super::{Arguments, Console, Effect, Fault, Outcome, Reply, merge, table, tell};
 use crate::debug::expression::number_text;
-use crate::debug::moment::{Change, Event, Moment};
+use crate::debug::moment::{Change, Event, Moment, Sample};
 use crate::debug::run::Run;
 use crate::debug::session::Session;
 use crate::debug::text::{Line, Text};
+use crate::isa::WriteMask;
 use crate::program::letters;
+use crate::texture::{Tap, footprint};
 
 /// A format with the function that writes it.
 struct Row {
@@ -70,36 +72,57 @@ fn format(name: &str) -> Result<&'static Row, Fault> {
 }
 
 /// A moment in words, for all formats.
-struct Entry {
+struct Entry<'m> {
     line: Option<usize>,
     text: String,
     register: String,
     components: String,
     change: Option<Change>,
+    /// The operands, each with its value.
+    reads: Vec<String>,
+    sample: Option<&'m Sample>,
     remarks: Vec<String>,
 }
 
-fn entry(run: &Run<'_>, moment: &Moment) -> Entry {
+fn entry<'m>(run: &Run<'_>, moment: &'m Moment) -> Entry<'m> {
     let kind = run.listing.kind();
     let text = match (moment.instruction, &moment.event) {
         (Some(number), _) => run.listing.text(number),
         (None, Event::Input(_)) => "input".to_string(),
         (None, Event::Set) => "set".to_string(),
-        (None, _) => String::new(),
+        (None, _) => tell::around(moment),
+    };
+    let mut remarks = tell::remarks(run, moment);
+    if let Event::Merge(stage) = &moment.event {
+        let lines = merge::lines(stage).lines;
+        remarks.extend(lines.iter().map(|line| line.to_string().trim().to_string()));
+    }
+    let (reads, sample) = match &moment.event {
+        Event::Step { reads, sample, .. } => {
+            let texts = reads
+                .iter()
+                .filter_map(|read| tell::read_text(run, read, read.slots));
+            (texts.collect(), sample.as_ref())
+        }
+        _ => (Vec::new(), None),
     };
     let name = |change: Change| tell::target_name(change.target, kind);
-    let components = |change: Change| -> String {
-        let letters = letters(kind);
-        change.mask.components().map(|c| letters[c]).collect()
-    };
+    let components = |change: Change| components_text(run, change.mask);
     Entry {
         line: moment.instruction.map(|number| run.listing.line(number)),
         text,
         register: moment.change.map(name).unwrap_or_default(),
         components: moment.change.map(components).unwrap_or_default(),
         change: moment.change,
-        remarks: tell::remarks(run, moment),
+        reads,
+        sample,
+        remarks,
     }
+}
+
+fn components_text(run: &Run<'_>, mask: WriteMask) -> String {
+    let letters = letters(run.listing.kind());
+    mask.components().map(|c| letters[c]).collect()
 }
 
 // --- JSON ---
@@ -137,24 +160,54 @@ fn json_moment(run: &Run<'_>, moment: &Moment) -> String {
         members.push(format!("\"before\": {}", json_vector(&change.before[lane])));
         members.push(format!("\"after\": {}", json_vector(&change.after[lane])));
     }
-    if let Event::Step {
-        sample: Some(sample),
-        ..
-    } = &moment.event
-    {
-        let lane = run.lane & 3;
-        members.push(format!(
-            "\"sample\": {{\"stage\": {}, \"coordinates\": {}, \"level\": {}}}",
-            sample.stage,
-            json_vector(&sample.coordinates[lane]),
-            json_number(sample.level[lane])
-        ));
+    if let Some(change) = entry.change.filter(|change| !change.first.is_empty()) {
+        let first = components_text(run, change.first);
+        members.push(format!("\"first_write\": {}", quoted(&first)));
+    }
+    let reads: Vec<String> = entry.reads.iter().map(|read| quoted(read)).collect();
+    if !reads.is_empty() {
+        members.push(format!("\"reads\": [{}]", reads.join(", ")));
+    }
+    if let Some(sample) = entry.sample {
+        members.push(format!("\"sample\": {}", json_sample(run, sample)));
     }
     if !entry.remarks.is_empty() {
         let remarks: Vec<String> = entry.remarks.iter().map(|words| quoted(words)).collect();
         members.push(format!("\"remarks\": [{}]", remarks.join(", ")));
     }
     format!("    {{{}}}", members.join(", "))
+}
+
+fn json_sample(run: &Run<'_>, sample: &Sample) -> String {
+    let lane = run.lane & 3;
+    let (coordinates, level) = (sample.coordinates[lane], sample.level[lane]);
+    let stage = run.environment.stages.get(sample.stage);
+    let bound = stage.and_then(|stage| Some((stage.texture?, &stage.sampler)));
+    let texels = bound.map_or(Vec::new(), |(texture, sampler)| {
+        let taps = footprint(texture, sampler, coordinates, level).taps;
+        let json = |tap: &Tap| {
+            let texel = tap
+                .texel
+                .map_or("null".to_string(), |place| format!("{place:?}"));
+            format!(
+                "{{\"face\": {}, \"level\": {}, \"texel\": {texel}, \"weight\": {}}}",
+                tap.face,
+                tap.level,
+                json_number(tap.weight)
+            )
+        };
+        taps.iter()
+            .filter(|tap| tap.weight > 0.0)
+            .map(json)
+            .collect()
+    });
+    format!(
+        "{{\"stage\": {}, \"coordinates\": {}, \"level\": {}, \"texels\": [{}]}}",
+        sample.stage,
+        json_vector(&coordinates),
+        json_number(level),
+        texels.join(", ")
+    )
 }
 
 fn json_vector(numbers: &[f32]) -> String {
@@ -189,7 +242,8 @@ fn quoted(text: &str) -> String {
 fn csv(runs: &[Run<'_>]) -> String {
     let mut out = String::from(
         "run,moment,line,text,register,components,\
-         before_x,before_y,before_z,before_w,after_x,after_y,after_z,after_w,remarks\n",
+         before_x,before_y,before_z,before_w,after_x,after_y,after_z,after_w,\
+         first_write,reads,stage,u,v,w,level,remarks\n",
     );
     for run in runs {
         for (number, moment) in run.moments.iter().enumerate() {
@@ -209,6 +263,20 @@ fn csv(runs: &[Run<'_>]) -> String {
                     cells.extend(numbers.map(|x| number_text(*x)));
                 }
                 None => cells.extend(std::iter::repeat_n(String::new(), 8)),
+            }
+            let first = entry
+                .change
+                .map(|change| components_text(run, change.first));
+            cells.push(first.unwrap_or_default());
+            cells.push(entry.reads.join("; "));
+            match entry.sample {
+                Some(sample) => {
+                    let lane = run.lane & 3;
+                    cells.push(sample.stage.to_string());
+                    let numbers = sample.coordinates[lane].iter().chain([&sample.level[lane]]);
+                    cells.extend(numbers.map(|x| number_text(*x)));
+                }
+                None => cells.extend(std::iter::repeat_n(String::new(), 5)),
             }
             cells.push(entry.remarks.join("; "));
             let cells: Vec<String> = cells.iter().map(|cell| csv_cell(cell)).collect();
@@ -235,8 +303,8 @@ fn markdown(runs: &[Run<'_>]) -> String {
     for run in runs {
         let title = tell::run_title(run).to_string();
         out.push_str(&format!("## {}\n\n", markdown_cell(&title)));
-        out.push_str("| line | instruction | register | value | remarks |\n");
-        out.push_str("| ---: | --- | --- | --- | --- |\n");
+        out.push_str("| line | instruction | register | value | from | remarks |\n");
+        out.push_str("| ---: | --- | --- | --- | --- | --- |\n");
         for moment in &run.moments {
             let entry = entry(run, moment);
             let line = entry.line.map_or(String::new(), |line| line.to_string());
@@ -252,8 +320,9 @@ fn markdown(runs: &[Run<'_>]) -> String {
                 None => Default::default(),
             };
             out.push_str(&format!(
-                "| {line} | {} | {register} | {value} | {} |\n",
+                "| {line} | {} | {register} | {value} | {} | {} |\n",
                 code(&entry.text),
+                markdown_cell(&entry.reads.join(", ")),
                 markdown_cell(&entry.remarks.join("; "))
             ));
         }

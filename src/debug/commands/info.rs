@@ -8,6 +8,7 @@ use crate::debug::text::{Line, Style, Text};
 use crate::exec::Stage;
 use crate::isa::{Opcode, ShaderKind, WriteMask};
 use crate::kernel::{Place, Slot};
+use crate::semantics;
 use crate::validate::{Usage, statistics};
 
 /// A topic of `info`.
@@ -213,10 +214,18 @@ fn constants(session: &Session<'_>, run: &Run<'_>) -> Text {
             .iter()
             .rev()
             .find(|(number, _)| *number == index);
-        let origin = match defined {
-            Some((_, defined)) if *defined == value => "   def",
-            Some(_) => "   set over its def",
-            None => "",
+        let bound = |defined: [f32; 4]| match run.listing.kind() {
+            ShaderKind::Vertex => defined,
+            ShaderKind::Pixel => defined.map(semantics::constant),
+        };
+        let origin = match defined.map(|(_, defined)| *defined) {
+            Some(defined) if defined == value => "   def".to_string(),
+            Some(defined) if bound(defined) == value => {
+                let written = tell::numbers(defined, WriteMask::ALL);
+                format!("   def {written}, clamped to −1…1")
+            }
+            Some(_) => "   set over its def".to_string(),
+            None => String::new(),
         };
         let line = Line::from(format!(
             "   {:<5} {}",

@@ -30,7 +30,20 @@ fn value_line(
 ) -> Result<Line, Fault> {
     let scope = session.scope().ok_or("there is no run")?;
     let value = expression.evaluate(&scope)?;
-    Ok(tell::value_line(&expression.to_string(), &value, format))
+    let line = tell::value_line(&expression.to_string(), &value, format);
+    let (listing, kind) = (scope.run.listing, scope.run.listing.kind());
+    if let Some((target, mask)) = expression.target(&listing)
+        && let Some(slot) = target.slot()
+    {
+        let unwritten = mask.without(scope.registers.written(slot));
+        if !unwritten.is_empty() {
+            let components = tell::mask_text(target, unwritten, kind);
+            let name = tell::target_name(target, kind);
+            let words = format!("   (nothing has written {name}{components})");
+            return Ok(line.and(words, Style::Dim));
+        }
+    }
+    Ok(line)
 }
 
 pub(super) fn display(

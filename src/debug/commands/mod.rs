@@ -36,6 +36,7 @@ use super::text::{Line, Style, Text};
 use crate::isa::ShaderKind;
 #[cfg(feature = "scene")]
 use crate::sheet::Tile;
+use std::collections::BTreeMap;
 use table::Command;
 
 /// What a person has set up, beside the session.
@@ -55,6 +56,8 @@ pub struct Console {
     repeat: Option<String>,
     /// The listing and the line that `list` goes on with.
     listed: Option<(ShaderKind, usize)>,
+    /// Where one was in the runs that `up` and `down` left.
+    left: BTreeMap<usize, usize>,
 }
 
 /// An expression that is shown after every stop.

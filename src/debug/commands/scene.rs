@@ -34,8 +34,13 @@ mod of_scenes {
     }
 
     /// Goes on with another subject.
-    fn replace<'a>(console: &Console, session: &mut Session<'a>, subject: Subject<'a>) -> Outcome {
+    fn replace<'a>(
+        console: &mut Console,
+        session: &mut Session<'a>,
+        subject: Subject<'a>,
+    ) -> Outcome {
         session.replace(subject);
+        console.left.clear();
         Ok(console.greeting(session).into())
     }
 
@@ -158,7 +163,14 @@ mod of_scenes {
             let number = arguments.text.parse::<usize>().ok();
             let event = number.and_then(|number| number.checked_sub(1));
             let other = event.and_then(|event| subject.with_event(event));
-            let other = other.ok_or("write it as history 2, a number of the list of `history`")?;
+            let most = subject.history().events.len();
+            let wrong = || {
+                format!(
+                    "`{}` is none of 1 to {most}, the numbers of `history`",
+                    arguments.text
+                )
+            };
+            let other = other.ok_or_else(wrong)?;
             return replace(console, session, Subject::Pixel(other));
         }
         let history = subject.history();

@@ -258,7 +258,8 @@ pub(super) fn ignore(
         0 => HitCount::Any,
         _ => HitCount::AtLeast(count.saturating_add(1)),
     };
-    Ok(format!("{id} passes over its first {count} hits").into())
+    let hits = if count == 1 { "hit" } else { "hits" };
+    Ok(format!("{id} passes over its first {count} {hits}").into())
 }
 
 pub(super) fn hits(

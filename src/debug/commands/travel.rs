@@ -290,7 +290,7 @@ pub(super) fn up(
     let count = arguments.count()? as usize;
     let run = session.position().run.checked_sub(count);
     let run = run.ok_or("no run comes before: `info runs` lists them")?;
-    Ok(enter(console, session, run))
+    Ok(call(console, session, run))
 }
 
 pub(super) fn down(
@@ -303,7 +303,7 @@ pub(super) fn down(
     if run >= session.runs().len() {
         return Err("no run comes behind: `info runs` lists them".into());
     }
-    Ok(enter(console, session, run))
+    Ok(call(console, session, run))
 }
 
 /// Runs are counted from 1.
@@ -314,10 +314,28 @@ fn run_number(session: &Session<'_>, text: &str) -> Result<usize, Fault> {
         .ok_or_else(|| format!("`{text}` is no run: `info runs` lists them").into())
 }
 
+/// To where one was in another run, or else to its end: what it left is what one asks for.
+fn call(console: &mut Console, session: &mut Session<'_>, number: usize) -> Reply {
+    let Position { run, at } = session.position();
+    console.left.insert(run, at);
+    let end = || {
+        session
+            .runs()
+            .get(number)
+            .map_or(0, |run| run.moments.len())
+    };
+    let at = console.left.get(&number).copied().unwrap_or_else(end);
+    arrive(console, session, Position { run: number, at })
+}
+
 /// To the first instruction of a run, without looking at what lies between.
 fn enter(console: &Console, session: &mut Session<'_>, number: usize) -> Reply {
     let at = session.runs().get(number).map_or(0, Run::first_instruction);
-    session.go_to(Position { run: number, at });
+    arrive(console, session, Position { run: number, at })
+}
+
+fn arrive(console: &Console, session: &mut Session<'_>, position: Position) -> Reply {
+    session.go_to(position);
     let mut text = Text::default();
     if let Some(run) = session.run() {
         text.line(tell::run_title(run));

@@ -56,7 +56,7 @@ impl Owned {
             sources: &self.sources,
         };
         let subject = Subject::Listing(ListingSubject { listing, given });
-        let perform = |_: &Effect| Err("not in these tests".to_string());
+        let perform = |_: &Effect, _: &Session<'_>| Err("not in these tests".to_string());
         App::new(Session::new(subject), Console::new(), Box::new(perform))
     }
 }
@@ -125,7 +125,7 @@ fn rendering(scene: &Scene) -> Rendering<'_> {
 fn pixel_app<'a>(rendering: &'a Rendering<'a>, pixel: [u32; 2]) -> App<'a> {
     let subject = PixelSubject::new(rendering, pixel, &Which::default()).unwrap();
     let session = Session::new(Subject::Pixel(subject));
-    let perform = |_: &Effect| Err("not in these tests".to_string());
+    let perform = |_: &Effect, _: &Session<'_>| Err("not in these tests".to_string());
     App::new(session, Console::new(), Box::new(perform))
 }
 
