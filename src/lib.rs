@@ -11,6 +11,7 @@ pub mod bytecode;
 pub mod case;
 pub mod diagnostic;
 pub mod exec;
+pub mod extract;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
@@ -23,6 +24,7 @@ pub mod listing;
 pub mod matching;
 pub mod mesh;
 pub mod policy;
+pub mod preprocess;
 pub mod program;
 pub mod raster;
 #[cfg(feature = "scene")]

@@ -1,13 +1,12 @@
 //! `eval`: one invocation on the CPU.
 
-use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json};
+use super::shaders::{Reading, not_one};
+use super::{Failure, Format, Outcome, diagnostics, print, print_json};
 use serde_json::{Map, Value, json};
 use texcrd::diagnostic::{SourceMap, any_error};
 use texcrd::exec::{Environment, Machine, Trace, bind_constants};
 use texcrd::isa::{RegisterFile, ShaderKind, Version, WriteMask};
 use texcrd::kernel::{self, Kernel, Slot};
-use texcrd::listing;
-use texcrd::policy::Dialect;
 use texcrd::program::{Instruction, Program};
 
 /// Runs a listing once, with values set by hand, and prints its registers.
@@ -20,7 +19,7 @@ Examples:
   texcrd eval shader.vsh --set v0=1,2,3 --trace
   echo 'ps.1.1 mul r0, v0, c0' | texcrd eval - --set v0=1 --set c0=0.5 --format json")]
 pub(super) struct Arguments {
-    /// The listing; `-` is standard input.
+    /// A listing, or a file with shaders in it; `-` is standard input.
     #[arg(value_name = "FILE")]
     file: String,
     /// Sets an input or a constant: v#, t# (texture coordinates) or c#. One number fills all four components; of
@@ -37,22 +36,28 @@ pub(super) struct Arguments {
     /// How results are written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Whose rules: d3d8, d3d9 or lenient.
-    #[arg(long, value_parser = dialect, default_value = "d3d8")]
-    dialect: Dialect,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let bytes = files::read(&arguments.file)?;
     let mut sources = SourceMap::new();
-    let file = sources
-        .add(files::name(&arguments.file), bytes)
-        .map_err(|e| Failure::Input(e.to_string()))?;
-    let checked = listing::check(file, arguments.dialect);
-    anstream::eprint!("{}", diagnostics::render(&sources, &checked.diagnostics));
-    let Some(program) = checked.accepted() else {
-        return Err(match diagnostics::summary(&checked.diagnostics) {
-            Some(summary) if any_error(&checked.diagnostics) => Failure::Input(summary),
+    let path = &arguments.file;
+    let opened = arguments.reading.open(&mut sources, path)?;
+    let (all, found) = arguments
+        .reading
+        .check_all(&mut sources, path, &opened, false)?;
+    let [checked] = &all[..] else {
+        if opened.shaders.is_empty() {
+            anstream::eprint!("{}", diagnostics::render(&sources, &found));
+        }
+        return Err(not_one(&opened, path));
+    };
+    anstream::eprint!("{}", diagnostics::render(&sources, &found));
+    let program = checked.program.as_ref().filter(|_| !any_error(&found));
+    let Some(program) = program else {
+        return Err(match diagnostics::summary(&found) {
+            Some(summary) if any_error(&found) => Failure::Input(summary),
             _ => Failure::Rejected,
         });
     };

@@ -15,11 +15,12 @@ mod files;
 mod filters;
 mod fuzz_match;
 mod generate;
+mod includes;
 mod reflect;
 mod run;
 mod scene;
+mod shaders;
 mod show;
-mod streams;
 mod test;
 mod translate;
 
