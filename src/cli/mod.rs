@@ -13,6 +13,7 @@ mod dis;
 mod eval;
 mod files;
 mod filters;
+mod fmt;
 mod fuzz_match;
 mod generate;
 mod includes;
@@ -25,7 +26,7 @@ mod test;
 mod translate;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use std::fmt;
+use std::fmt::{Display, Formatter};
 use std::process::ExitCode;
 use texcrd::policy::Dialect;
 
@@ -55,6 +56,7 @@ enum Command {
     Compare(compare::Arguments),
     Dis(dis::Arguments),
     Eval(eval::Arguments),
+    Fmt(fmt::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
     Run(run::Arguments),
@@ -82,8 +84,8 @@ enum Failure {
     Io(String),
 }
 
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Display for Failure {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::Rejected => Ok(()),
             Failure::Input(message) | Failure::Io(message) => f.write_str(message),
@@ -108,6 +110,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Fmt(arguments) => fmt::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),

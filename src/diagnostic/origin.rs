@@ -138,11 +138,16 @@ impl SourceMap {
             }
         };
         let (start, end) = (place(first)?, place(last)?);
-        let same = start.start <= end.end && self.number_of(start.start) == self.number_of(end.end);
+        // An argument with what the macro puts behind it, or the other way round: the outer place, or the argument.
+        let within = |a: Span, b: Span| b.start <= a.start && a.end <= b.end;
+        let joins = !within(start, end)
+            && !within(end, start)
+            && start.start <= end.end
+            && self.number_of(start.start) == self.number_of(end.end);
         let earlier = start.start.max(start.end) < file.base;
         // A derivation that does not lead to an earlier text leads nowhere.
         earlier.then(|| {
-            if same {
+            if joins {
                 Span::new(start.start, end.end)
             } else {
                 start

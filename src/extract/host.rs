@@ -22,9 +22,12 @@ enum Place {
 }
 
 impl Found {
-    /// Whether it is a block of an effect.
-    pub(super) fn is_block(&self) -> bool {
-        matches!(self.place, Place::Block(_))
+    /// Where its text stands, if it is a block.
+    pub(super) fn block(&self) -> Option<Span> {
+        match self.place {
+            Place::Block(block) => Some(block),
+            Place::Strings(_) => None,
+        }
     }
 
     /// Its text, made of the text at `base` of the sources.

@@ -140,11 +140,7 @@ pub fn open(
     bytes: Vec<u8>,
     options: &preprocess::Options<'_>,
 ) -> Result<File, TooLarge> {
-    let is_listing = syntax::begins_with_version(&bytes);
-    let tokens = match is_listing {
-        true => None,
-        false => bytecode::recognize(&bytes),
-    };
+    let (tokens, found) = recognized(&bytes);
     if let Some(form) = tokens.filter(|form| *form != bytecode::Form::Arrays) {
         let before = sources.files().len();
         let read = bytecode::read(sources, name, &bytes)?;
@@ -161,11 +157,8 @@ pub fn open(
             diagnostics: Vec::new(),
         });
     }
-    if !is_listing && syntax::not_text(&bytes).is_none() && bytes.len() <= SourceMap::MAX_BYTES {
-        let found = host::scan(&bytes);
-        if !found.is_empty() || tokens.is_some() {
-            return of_host(sources, name, bytes, options, found);
-        }
+    if !found.is_empty() || tokens.is_some() {
+        return of_host(sources, name, bytes, options, found);
     }
     let span = sources.add(name, bytes)?.span();
     let text = Text::Listing {
@@ -179,6 +172,54 @@ pub fn open(
         shaders: vec![Shader { name: None, text }],
         diagnostics: Vec::new(),
     })
+}
+
+/// Says what a file is: how tokens are written in it, and the listings that stand in it among other things.
+fn recognized(bytes: &[u8]) -> (Option<bytecode::Form>, Vec<host::Found>) {
+    if syntax::begins_with_version(bytes) {
+        return (None, Vec::new());
+    }
+    let tokens = bytecode::recognize(bytes);
+    let host = tokens.is_none_or(|form| form == bytecode::Form::Arrays);
+    let text = host && bytes.len() <= SourceMap::MAX_BYTES && syntax::not_text(bytes).is_none();
+    (tokens, if text { host::scan(bytes) } else { Vec::new() })
+}
+
+/// What became of a file that was to be laid out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// The file with its listings laid out.
+    Done(Vec<u8>),
+    /// There is nothing to lay out, and why.
+    Nothing(&'static str),
+}
+
+/// Lays out the listing, or the blocks of an effect, as [`syntax::format`] does.
+pub fn format(bytes: &[u8]) -> Layout {
+    let (tokens, found) = recognized(bytes);
+    if found.is_empty() {
+        return match tokens {
+            Some(_) => Layout::Nothing("these are tokens; `dis` makes a listing of them"),
+            None if syntax::not_text(bytes).is_some() || bytes.len() > SourceMap::MAX_BYTES => {
+                Layout::Nothing("this is no listing")
+            }
+            None => Layout::Done(syntax::format(bytes)),
+        };
+    }
+    let blocks: Vec<Span> = found.iter().filter_map(host::Found::block).collect();
+    if blocks.is_empty() {
+        return Layout::Nothing("its listings stand in strings, which are left as they are");
+    }
+    let mut text = Vec::with_capacity(bytes.len());
+    let mut done = 0;
+    for block in blocks {
+        let (start, end) = (block.start as usize, block.end as usize);
+        text.extend_from_slice(bytes.get(done..start).unwrap_or(&[]));
+        text.extend(syntax::format_block(bytes.get(start..end).unwrap_or(&[])));
+        done = end;
+    }
+    text.extend_from_slice(bytes.get(done..).unwrap_or(&[]));
+    Layout::Done(text)
 }
 
 fn of_stream(stream: Stream) -> Shader {
@@ -196,7 +237,7 @@ fn of_host(
     options: &preprocess::Options<'_>,
     mut found: Vec<host::Found>,
 ) -> Result<File, TooLarge> {
-    let effect = found.iter().any(|f| f.is_block());
+    let effect = found.iter().any(|f| f.block().is_some());
     let needed = effect && preprocess::is_needed(&bytes, options);
     let streams = bytecode::read(sources, name, &bytes)?.map_or(Vec::new(), |input| input.streams);
     let span = match streams.is_empty() {

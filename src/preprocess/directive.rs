@@ -156,7 +156,8 @@ impl Preprocessor<'_, '_> {
             .last()
             .is_some_and(|open| self.conditions.len() > open.conditions);
         let text = String::from_utf8_lossy(name).into_owned();
-        let Some(mut condition) = self.conditions.pop().filter(|_| own) else {
+        let condition = if own { self.conditions.pop() } else { None };
+        let Some(mut condition) = condition else {
             let message = format!("no #if stands before this #{text}");
             return self.error(
                 &rules::CONDITIONAL,

@@ -50,6 +50,11 @@ pub(super) struct Token {
     pub(super) first: bool,
 }
 
+/// The tokens of a text, whatever is wrong with it.
+pub(super) fn tokens(text: &[u8]) -> Vec<Token> {
+    lex_up_to(text, 0, MOST_TOKENS, &mut Reports::default()).tokens
+}
+
 /// The tokens of a text.
 pub(super) struct Lexed {
     /// Never empty: [`Kind::End`] is the last.

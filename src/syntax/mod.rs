@@ -10,6 +10,7 @@ mod comment;
 mod confuse;
 mod declare;
 mod fix;
+mod format;
 mod index;
 mod lexer;
 mod list;
@@ -29,6 +30,8 @@ mod unread;
 mod tests;
 
 pub use fix::apply_fixes;
+pub use format::format;
+pub(crate) use format::format_block;
 pub use printer::{print, print_instruction};
 pub(crate) use prologue::{begins_with_version, not_text};
 pub use rules::RULES;

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod eval;
 mod generate;
+mod hosts;
 mod run;
 mod test;
 mod translate;

@@ -82,6 +82,17 @@ fn text_of_an_argument() {
     assert!(notes[1].ends_with("listing:1:18-1:21"), "{notes:?}");
 }
 
+/// An argument with what the macro puts behind it is told as the argument; what begins in the macro as its use.
+#[test]
+fn text_of_a_macro_and_an_argument() {
+    let text = "#define M(d, s) mov d.x, s\n M(r0, c1)\n";
+    let (at, notes, own) = place(text, &[], "r0.x", 0);
+    assert_eq!((at.as_str(), own), ("listing:2:4-2:6", false));
+    assert_eq!(notes[0], "expanded, this reads `r0.x`");
+    let (at, _, _) = place(text, &[], "mov r0.x, c1", 0);
+    assert_eq!(at, "listing:2:2-2:11");
+}
+
 #[test]
 fn macros_in_macros_in_files() {
     let text = "\n#include \"a.h\"\nOUTER(r0)\nINNER\n";

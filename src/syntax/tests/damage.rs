@@ -230,7 +230,10 @@ fn repairs_of_one_place_do_not_meet() {
         fix(90, 91, "out", true),
     ];
     // 0: "+" before a; 1..3 becomes X; 2..4 overlaps and is left; 4..5 becomes E.
-    assert_eq!(apply_fixes(&map, &map.files()[0], &list), (b"+aXdEf".to_vec(), 3));
+    assert_eq!(
+        apply_fixes(&map, &map.files()[0], &list),
+        (b"+aXdEf".to_vec(), 3)
+    );
 }
 
 #[test]

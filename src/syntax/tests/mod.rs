@@ -2,6 +2,7 @@
 
 mod damage;
 mod grammar;
+mod layout;
 mod robust;
 mod round_trip;
 mod scans;
