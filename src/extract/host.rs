@@ -190,15 +190,13 @@ impl Walk<'_> {
             b'}' => {
                 self.scopes.pop();
             }
-            b';' => {
-                // Within the declaration before a shader there are more of them.
-                if self
-                    .assigned
-                    .is_some_and(|(_, depth)| self.scopes.len() <= depth)
-                {
-                    self.assigned = None;
-                    self.elements = None;
-                }
+            // Within the declaration before a shader there are more of them.
+            b';' if self
+                .assigned
+                .is_some_and(|(_, depth)| self.scopes.len() <= depth) =>
+            {
+                self.assigned = None;
+                self.elements = None;
             }
             b'<' => {
                 if let Last::Name(name) = last {

@@ -167,15 +167,15 @@ impl Reader<'_> {
     }
 
     fn unary(&mut self, needed: bool) -> Result<i64, Fault> {
-        let signs: [(&[u8], fn(i64) -> i64); 4] = [
-            (b"!", |v| i64::from(v == 0)),
-            (b"-", i64::wrapping_neg),
-            (b"+", |v| v),
-            (b"~", |v| !v),
-        ];
-        for (sign, apply) in signs {
+        for sign in [b"!", b"-", b"+", b"~"] {
             if self.take(sign) {
-                return self.deeper(|reader| reader.unary(needed)).map(apply);
+                let value = self.deeper(|reader| reader.unary(needed))?;
+                return Ok(match sign {
+                    b"!" => i64::from(value == 0),
+                    b"-" => value.wrapping_neg(),
+                    b"+" => value,
+                    _ => !value,
+                });
             }
         }
         if self.take(b"(") {

@@ -219,11 +219,8 @@ impl Preprocessor<'_, '_> {
                 false => self.next(),
             };
             match token.kind {
-                Kind::End => {
-                    if !self.close() {
-                        return;
-                    }
-                }
+                Kind::End if self.close() => {}
+                Kind::End => return,
                 Kind::Sign if token.first && token.is(self.sources, b"#") => self.directive(&token),
                 _ if self.active() => self.emit(&token),
                 _ => {}
