@@ -14,6 +14,7 @@ pub mod case;
 pub mod debug;
 pub mod diagnostic;
 pub mod exec;
+pub mod extract;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
@@ -26,6 +27,7 @@ pub mod listing;
 pub mod matching;
 pub mod mesh;
 pub mod policy;
+pub mod preprocess;
 pub mod program;
 pub mod raster;
 #[cfg(feature = "scene")]

@@ -1,7 +1,8 @@
-//! A listing on its way through parser and validator.
+//! A listing on its way through preprocessor, parser and validator.
 
-use crate::diagnostic::{Diagnostic, SourceFile, any_error};
+use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, any_error};
 use crate::policy::Dialect;
+use crate::preprocess::{self, Preprocessed, preprocess};
 use crate::program::Program;
 use crate::{syntax, validate};
 
@@ -24,23 +25,95 @@ impl Checked {
     }
 }
 
-/// Parses a listing and validates what could be read of it.
+/// How a listing is read.
+#[derive(Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// By whose rules it is judged.
+    pub dialect: Dialect,
+    /// Whether only the text is judged, and not the rules of the shader model.
+    pub unchecked: bool,
+    /// Whether names may have been defined that are not known here.
+    pub names_missing: bool,
+    /// What the preprocessor is given.
+    pub preprocess: preprocess::Options<'a>,
+}
+
+/// Parses and validates a listing in which nothing is left for the preprocessor. See [`read`] for those of people.
 ///
 /// What follows only from lines that could not be read (a register that they seem to write is not written, say) is
 /// not told again.
 pub fn check(file: &SourceFile, dialect: Dialect) -> Checked {
-    let options = syntax::Options {
-        lenient: dialect == Dialect::Lenient,
+    let options = Options {
+        dialect,
         ..Default::default()
     };
-    let parsed = syntax::parse_with(file, options);
+    check_around(file, &options, &[])
+}
+
+/// Preprocesses, parses and validates a listing, one of the sources.
+///
+/// Where it has directives, the spans of its program lie in a text that is added to the sources, which know where each part
+/// of it was written.
+pub fn read(sources: &mut SourceMap, file: Span, options: &Options<'_>) -> Checked {
+    let bytes = sources
+        .file_of(file.start)
+        .map_or(&[][..], SourceFile::bytes);
+    let preprocessed = match preprocess::is_needed(bytes, &options.preprocess)
+        && syntax::not_text(bytes).is_none()
+    {
+        true => preprocess(sources, file, &options.preprocess),
+        false => Preprocessed {
+            text: Some(file),
+            diagnostics: Vec::new(),
+            lost: Vec::new(),
+        },
+    };
+    check_preprocessed(sources, preprocessed, options)
+}
+
+/// Parses and validates what a preprocessor left.
+fn check_preprocessed(
+    sources: &SourceMap,
+    preprocessed: Preprocessed,
+    options: &Options<'_>,
+) -> Checked {
+    let text = preprocessed
+        .text
+        .and_then(|text| sources.file_of(text.start));
+    let mut checked = match text {
+        Some(text) => check_around(text, options, &preprocessed.lost),
+        None => Checked {
+            program: None,
+            diagnostics: Vec::new(),
+        },
+    };
+    if !preprocessed.diagnostics.is_empty() {
+        checked.diagnostics.splice(0..0, preprocessed.diagnostics);
+        checked.diagnostics.sort_by_key(|d| sources.written(d.span));
+    }
+    checked
+}
+
+/// As [`check`], of a text in which something is missing at these places.
+pub(crate) fn check_around(file: &SourceFile, options: &Options<'_>, lost: &[Span]) -> Checked {
+    let parsed = syntax::parse_with(
+        file,
+        syntax::Options {
+            lenient: options.dialect == Dialect::Lenient,
+            names_missing: options.names_missing || !lost.is_empty(),
+            ..Default::default()
+        },
+    );
     let mut diagnostics = parsed.diagnostics.clone();
-    diagnostics.extend(syntax::unread(file, &parsed));
-    if let Some(program) = &parsed.program {
-        let unread: Vec<_> = (parsed.damaged.iter())
-            .map(|damage| (damage.span, damage.destination))
-            .collect();
-        diagnostics.extend(validate::validate_around(program, dialect, &unread));
+    if !options.unchecked {
+        diagnostics.extend(syntax::unread(file, &parsed));
+        if let Some(program) = &parsed.program {
+            let mut unread: Vec<_> = (parsed.damaged.iter())
+                .map(|damage| (damage.span, damage.destination))
+                .collect();
+            unread.extend(lost.iter().map(|place| (*place, None)));
+            diagnostics.extend(validate::validate_around(program, options.dialect, &unread));
+        }
     }
     diagnostics.sort_by_key(|d| (d.span.start, d.span.end));
     Checked {

@@ -1,13 +1,12 @@
 //! `asm`: listings to tokens.
 
-use super::{Failure, Outcome, diagnostics, dialect, files, print, streams};
+use super::shaders::{Opened, Reading, not_one};
+use super::{Failure, Outcome, diagnostics, files, print};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use texcrd::bytecode::{self, Declaration, Input, StreamKind};
+use texcrd::bytecode::{self, Declaration, StreamKind};
 use texcrd::diagnostic::{Diagnostic, SourceMap, any_error};
-use texcrd::policy::Dialect;
-use texcrd::program::Program;
-use texcrd::{listing, syntax};
+use texcrd::extract::{Shader, Text};
 
 /// Makes tokens of a listing, as Direct3D took them: little-endian words of 32 bits.
 ///
@@ -17,9 +16,11 @@ use texcrd::{listing, syntax};
 Examples:
   texcrd asm water.psh -o water.pso
   texcrd asm water.psh --hex
+  texcrd asm water.fx --hex                   the tokens of every shader of an effect
+  texcrd asm water.fx --shader T0/P0/PixelShader -o water.pso
   texcrd asm --unchecked odd.psh --hex        tokens of whatever has some, as the old assembler could")]
 pub(super) struct Arguments {
-    /// A listing, a vertex declaration, or a file of tokens; `-` is standard input.
+    /// A listing, a vertex declaration, a file of tokens, or a file with shaders in it; `-` is standard input.
     #[arg(value_name = "FILE")]
     file: String,
     /// Where the tokens go; without it standard output.
@@ -31,12 +32,8 @@ pub(super) struct Arguments {
     /// Ask only for what has no token, not for the rules of the shader model.
     #[arg(long)]
     unchecked: bool,
-    /// Of a file with several shaders, this one: the name of its array, or its number from 1.
-    #[arg(long, value_name = "NAME|N")]
-    shader: Option<String>,
-    /// Whose rules: d3d8, d3d9 or lenient.
-    #[arg(long, value_parser = dialect, default_value = "d3d8")]
-    dialect: Dialect,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -50,75 +47,82 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         files::can_be_written(output)?;
         files::is_no_input(output, [&arguments.file])?;
     }
-    let bytes = files::read(&arguments.file)?;
-    let name = files::name(&arguments.file);
     let mut sources = SourceMap::new();
-    let too_large = |e: texcrd::diagnostic::TooLarge| Failure::Input(e.to_string());
-    let input = bytecode::read(&mut sources, name, &bytes).map_err(too_large)?;
-    let words = match input {
-        Some(input) => stream(arguments, &mut sources, input)?,
-        None => {
-            sources.add(name, bytes).map_err(too_large)?;
-            shader(arguments, &sources)?
-        }
+    let opened = arguments.reading.open(&mut sources, &arguments.file)?;
+    report(&sources, &opened.file.diagnostics)?;
+    // Several in one file of words would be one stream that ends too early.
+    let several = opened.shaders.len() > 1;
+    if opened.shaders.is_empty() || (several && !arguments.hex) {
+        return Err(not_one(&opened, &arguments.file));
+    }
+    let (made, complete) = assemble_all(arguments, &mut sources, &opened);
+    let text = || -> String {
+        let name = |name: &str| {
+            if several {
+                format!("// {name}\n")
+            } else {
+                String::new()
+            }
+        };
+        let all = made.iter();
+        all.map(|(shader, words)| name(shader) + &bytecode::to_hex(words))
+            .collect()
     };
+    let words = made.first().map_or(&[][..], |(_, words)| words);
+    if !complete && !several {
+        return Err(Failure::Rejected);
+    }
     match (output, arguments.hex) {
-        (Some(output), true) => files::write(output, bytecode::to_hex(&words).as_bytes()),
-        (Some(output), false) => files::write(output, &bytecode::to_bytes(&words)),
-        (None, true) => print(&bytecode::to_hex(&words)),
-        (None, false) => files::write(Path::new("-"), &bytecode::to_bytes(&words)),
+        _ if !complete && output.is_some() => {}
+        (Some(output), true) => files::write(output, text().as_bytes())?,
+        (Some(output), false) => files::write(output, &bytecode::to_bytes(words))?,
+        (None, true) => print(&text())?,
+        (None, false) => files::write(Path::new("-"), &bytecode::to_bytes(words))?,
+    }
+    match complete {
+        true => Ok(()),
+        false => Err(Failure::Rejected),
     }
 }
 
-/// The tokens of the last source, a listing.
-fn shader(arguments: &Arguments, sources: &SourceMap) -> Result<Vec<u32>, Failure> {
-    let Some(file) = sources.files().last() else {
-        return Err(Failure::Rejected);
-    };
-    let (program, found) = if arguments.unchecked {
-        let options = syntax::Options {
-            lenient: arguments.dialect == Dialect::Lenient,
-            ..Default::default()
-        };
-        let parsed = syntax::parse_with(file, options);
-        (parsed.program, parsed.diagnostics)
-    } else {
-        let checked = listing::check(file, arguments.dialect);
-        (checked.program, checked.diagnostics)
-    };
-    report(sources, &found)?;
-    let encoded = program
-        .as_ref()
-        .map(|program: &Program| bytecode::encode(program));
-    written(sources, encoded.ok_or(Failure::Rejected)?)
-}
-
-/// The tokens of the one stream that is meant.
-fn stream(
+/// The tokens of the shaders that have some, by name, and whether all have.
+fn assemble_all(
     arguments: &Arguments,
     sources: &mut SourceMap,
-    input: Input,
-) -> Result<Vec<u32>, Failure> {
-    let names = streams::names(&input.streams).join(", ");
-    let picked = streams::pick(input, arguments.shader.as_deref())?;
-    let [stream] = &picked[..] else {
-        return Err(Failure::Io(format!(
-            "this file holds several: pick one with --shader, of {names}"
-        )));
-    };
-    let made = bytecode::disassemble(stream, sources);
-    let made = made.map_err(|e| Failure::Input(e.to_string()))?;
-    report(sources, &made.diagnostics)?;
-    match stream.kind {
-        StreamKind::Shader => shader(arguments, sources),
-        StreamKind::Declaration => {
-            let (declaration, _) = Declaration::decode(&stream.words);
-            if !arguments.unchecked {
-                report(sources, &stream.placed(declaration.check()))?;
-            }
-            written(sources, declaration.encode())
+    opened: &Opened,
+) -> (Vec<(String, Vec<u32>)>, bool) {
+    let mut made = Vec::new();
+    for (name, shader) in &opened.shaders {
+        match assemble(arguments, sources, shader) {
+            Ok(words) => made.push((name.clone(), words)),
+            Err(Failure::Rejected) => {}
+            Err(failure) => anstream::eprintln!("error: {failure}"),
         }
     }
+    let complete = made.len() == opened.shaders.len();
+    (made, complete)
+}
+
+/// The tokens of one shader.
+fn assemble(
+    arguments: &Arguments,
+    sources: &mut SourceMap,
+    shader: &Shader,
+) -> Result<Vec<u32>, Failure> {
+    let path = &arguments.file;
+    let checked = arguments
+        .reading
+        .check(sources, path, shader, arguments.unchecked)?;
+    report(sources, &checked.diagnostics)?;
+    let encoded = match (&checked.program, &shader.text) {
+        (Some(program), _) => bytecode::encode(program),
+        (None, Text::Tokens(stream)) if stream.kind == StreamKind::Declaration => {
+            let (declaration, _) = Declaration::decode(&stream.words);
+            declaration.encode()
+        }
+        (None, _) => return Err(Failure::Rejected),
+    };
+    encoded.or_else(|found| report(sources, &found).map(|()| Vec::new()))
 }
 
 /// Prints diagnostics; an error among them ends the command.
@@ -128,12 +132,4 @@ fn report(sources: &SourceMap, found: &[Diagnostic]) -> Outcome {
         true => Err(Failure::Rejected),
         false => Ok(()),
     }
-}
-
-/// The tokens, or what has none.
-fn written(
-    sources: &SourceMap,
-    encoded: Result<Vec<u32>, Vec<Diagnostic>>,
-) -> Result<Vec<u32>, Failure> {
-    encoded.or_else(|found| report(sources, &found).map(|()| Vec::new()))
 }

@@ -1,14 +1,14 @@
 //! `check`: parse, validate, repair.
 
-use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json};
+use super::shaders::{Reading, not_one};
+use super::{Failure, Format, Outcome, diagnostics, files, print, print_json};
 use serde_json::json;
 use std::path::Path;
 use texcrd::diagnostic::{Diagnostic, SourceMap, any_error};
 use texcrd::isa::ShaderKind;
-use texcrd::policy::Dialect;
 use texcrd::program::Program;
 use texcrd::validate::{Statistics, Usage};
-use texcrd::{listing, syntax, validate};
+use texcrd::{syntax, validate};
 
 /// Says everything that is wrong with listings.
 ///
@@ -19,9 +19,11 @@ Examples:
   texcrd check shader.psh
   texcrd check --fix scanned.psh        repair the file where only one thing can have been meant
   texcrd check --stats shader.vsh       slots used of slots allowed
+  texcrd check -I include -D FOG water.psh      a listing for the preprocessor
+  texcrd check water.fx renderer.cpp    every shader of an effect and of a source of C
   texcrd check --format json *.psh      one object a diagnostic; with --stats one more a file")]
 pub(super) struct Arguments {
-    /// Listings; `-` is standard input.
+    /// Listings, effects, sources of C, tokens; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
     /// Apply the repairs that are certain and leave the rest. Files are rewritten in place; of standard input the repaired
@@ -34,9 +36,8 @@ pub(super) struct Arguments {
     /// How results are written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Whose rules: d3d8, d3d9 or lenient.
-    #[arg(long, value_parser = dialect, default_value = "d3d8")]
-    dialect: Dialect,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -50,38 +51,55 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     Ok(())
 }
 
-/// Whether the listing is accepted.
+/// Whether all shaders of a file are accepted.
 fn check(arguments: &Arguments, path: &str) -> Result<bool, Failure> {
     let mut bytes = files::read(path)?;
     if arguments.fix {
-        bytes = fix(path, bytes)?;
+        bytes = fix(arguments, path, bytes)?;
     }
     let mut sources = SourceMap::new();
-    let file = sources
-        .add(files::name(path), bytes)
-        .map_err(|e| Failure::Input(e.to_string()))?;
-    let checked = listing::check(file, arguments.dialect);
-    report(arguments, &sources, &checked.diagnostics)?;
-    if arguments.stats
-        && let Some(program) = &checked.program
-    {
-        statistics(arguments, files::name(path), program)?;
+    let opened = arguments.reading.open_bytes(&mut sources, path, bytes)?;
+    let (all, found) = arguments
+        .reading
+        .check_all(&mut sources, path, &opened, false)?;
+    if opened.shaders.is_empty() && !any_error(&found) {
+        return Err(not_one(&opened, path));
     }
-    Ok(!any_error(&checked.diagnostics))
+    report(arguments, &sources, files::name(path), &found)?;
+    if arguments.stats {
+        let several = opened.file.shaders.len() > 1;
+        for ((name, _), checked) in opened.shaders.iter().zip(&all) {
+            if let Some(program) = &checked.program {
+                let name = Some(name.as_str()).filter(|_| several);
+                statistics(arguments, files::name(path), name, program)?;
+            }
+        }
+    }
+    Ok(!any_error(&found))
 }
 
-/// Repairs a listing until nothing certain is left to repair, and writes it back.
-fn fix(path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
+/// Repairs a file until nothing certain is left to repair, and writes it back.
+fn fix(arguments: &Arguments, path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
     // One repair can uncover the next: a lost semicolon hides what stands in the line.
     const ROUNDS: usize = 8;
     let mut bytes = original.clone();
     let mut repaired = 0;
     for _ in 0..ROUNDS {
         let mut sources = SourceMap::new();
-        let file = sources
-            .add(files::name(path), bytes.clone())
-            .map_err(|e| Failure::Input(e.to_string()))?;
-        let (fixed, count) = syntax::apply_fixes(file, &syntax::parse(file).diagnostics);
+        let opened = arguments
+            .reading
+            .open_bytes(&mut sources, path, bytes.clone())?;
+        let (_, found) = arguments
+            .reading
+            .check_all(&mut sources, path, &opened, true)?;
+        let Some(file) = sources
+            .file_of(opened.file.span.start)
+            .filter(|f| f.bytes() == bytes)
+        else {
+            // Tokens have nothing to repair.
+            break;
+        };
+        let (fixed, count) = syntax::apply_fixes(&sources, file, &found);
         if count == 0 {
             break;
         }
@@ -99,7 +117,7 @@ fn fix(path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-fn report(arguments: &Arguments, sources: &SourceMap, found: &[Diagnostic]) -> Outcome {
+fn report(arguments: &Arguments, sources: &SourceMap, name: &str, found: &[Diagnostic]) -> Outcome {
     if arguments.format == Format::Json {
         for diagnostic in found {
             print_json(&diagnostics::to_json(sources, diagnostic))?;
@@ -107,7 +125,6 @@ fn report(arguments: &Arguments, sources: &SourceMap, found: &[Diagnostic]) -> O
         return Ok(());
     }
     let mut text = diagnostics::render(sources, found);
-    let name = sources.files().last().map_or("", |f| f.name());
     let summary = diagnostics::summary(found);
     text.push_str(&format!(
         "{name}: {}\n",
@@ -121,11 +138,21 @@ fn report(arguments: &Arguments, sources: &SourceMap, found: &[Diagnostic]) -> O
     print(&text)
 }
 
-fn statistics(arguments: &Arguments, name: &str, program: &Program) -> Outcome {
+/// `shader`: its name, if it is one of several.
+fn statistics(
+    arguments: &Arguments,
+    file: &str,
+    shader: Option<&str>,
+    program: &Program,
+) -> Outcome {
     let statistics = validate::statistics(program);
-    match arguments.format {
-        Format::Json => print_json(&json!({ "file": name, "stats": to_json(&statistics) })),
-        Format::Text => print(&to_text(&statistics)),
+    match (arguments.format, shader) {
+        (Format::Json, None) => print_json(&json!({ "file": file, "stats": to_json(&statistics) })),
+        (Format::Json, Some(name)) => {
+            print_json(&json!({ "file": file, "shader": name, "stats": to_json(&statistics) }))
+        }
+        (Format::Text, None) => print(&to_text(&statistics)),
+        (Format::Text, Some(name)) => print(&format!("{name}: {}", to_text(&statistics))),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Diagnostics for people and as JSON.
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
 use serde_json::json;
-use texcrd::diagnostic::{Diagnostic, Severity, SourceMap, Span};
+use texcrd::diagnostic::{Diagnostic, Fix, Severity, SourceMap, Span};
 
 /// How much of a long line is shown around the place that is meant, in bytes on either side.
 const CONTEXT: usize = 100;
@@ -25,11 +25,7 @@ fn render_one(sources: &SourceMap, diagnostic: &Diagnostic) -> String {
     let title = level
         .primary_title(diagnostic.message.as_str())
         .id(diagnostic.rule.id);
-    let window = Window::of(sources, diagnostic.span);
-    let place = Snippet::source(window.text)
-        .line_start(window.line)
-        .path(window.file)
-        .annotation(AnnotationKind::Primary.span(window.start..window.end));
+    let place = snippet(sources, diagnostic.span, AnnotationKind::Primary);
     let mut group = title
         .element(place)
         .element(Level::NOTE.with_name("rule").message(diagnostic.rule.rule));
@@ -38,6 +34,7 @@ fn render_one(sources: &SourceMap, diagnostic: &Diagnostic) -> String {
     }
     if let Some(fix) = &diagnostic.fix
         && fix.certain
+        && sources.editable(fix.span).is_some()
     {
         let fixed = if sources.text(fix.span).is_empty() {
             format!("`check --fix` inserts `{}`", fix.replacement)
@@ -47,7 +44,31 @@ fn render_one(sources: &SourceMap, diagnostic: &Diagnostic) -> String {
         };
         group = group.element(Level::NOTE.with_name("fix").message(fixed));
     }
-    Renderer::styled().render(&[group])
+    let mut groups = vec![];
+    for note in sources.notes(diagnostic.span) {
+        match note.span {
+            None => group = group.element(Level::NOTE.message(note.message)),
+            Some(span) => {
+                let title = Level::NOTE.secondary_title(note.message);
+                groups.push(title.element(snippet(sources, span, AnnotationKind::Context)));
+            }
+        }
+    }
+    groups.insert(0, group);
+    Renderer::styled().render(&groups)
+}
+
+/// A place with its line.
+fn snippet<'a>(
+    sources: &SourceMap,
+    span: Span,
+    kind: AnnotationKind,
+) -> Snippet<'a, Annotation<'a>> {
+    let window = Window::of(sources, span);
+    Snippet::source(window.text)
+        .line_start(window.line)
+        .path(window.file)
+        .annotation(kind.span(window.start..window.end))
 }
 
 /// The part of a line that is shown, readable whatever bytes it holds.
@@ -63,6 +84,7 @@ struct Window {
 impl Window {
     /// The first line of a span, cut to the surroundings of the place.
     fn of(sources: &SourceMap, span: Span) -> Self {
+        let span = sources.written(span);
         let (Some(file), Some(at)) = (sources.file_of(span.start), sources.locate(span)) else {
             return Self {
                 file: String::new(),
@@ -101,7 +123,9 @@ impl Window {
 /// One diagnostic as the command line's contract has it.
 pub(super) fn to_json(sources: &SourceMap, diagnostic: &Diagnostic) -> serde_json::Value {
     let at = sources.locate(diagnostic.span);
-    let fix = diagnostic.fix.as_ref().map(|fix| {
+    // What a macro has made cannot be repaired where it is used.
+    let editable = |fix: &&Fix| sources.editable(fix.span).is_some();
+    let fix = diagnostic.fix.as_ref().filter(editable).map(|fix| {
         let place = sources.locate(fix.span);
         json!({
             "line": place.as_ref().map(|at| at.line),
@@ -112,6 +136,17 @@ pub(super) fn to_json(sources: &SourceMap, diagnostic: &Diagnostic) -> serde_jso
             "certain": fix.certain,
         })
     });
+    let notes: Vec<_> = (sources.notes(diagnostic.span).into_iter())
+        .map(|note| {
+            let at = note.span.and_then(|span| sources.locate(span));
+            json!({
+                "file": at.as_ref().map(|at| at.file),
+                "line": at.as_ref().map(|at| at.line),
+                "column": at.as_ref().map(|at| at.column),
+                "message": note.message,
+            })
+        })
+        .collect();
     json!({
         "file": at.as_ref().map(|at| at.file),
         "line": at.as_ref().map(|at| at.line),
@@ -123,6 +158,7 @@ pub(super) fn to_json(sources: &SourceMap, diagnostic: &Diagnostic) -> serde_jso
         "message": diagnostic.message,
         "help": diagnostic.help,
         "fix": fix,
+        "notes": notes,
     })
 }
 

@@ -1,8 +1,11 @@
 //! `dis`: tokens to listings.
 
-use super::{Failure, Outcome, diagnostics, files, print, streams};
+use super::shaders::{pick, too_large};
+use super::{Failure, Outcome, diagnostics, files, print};
 use texcrd::bytecode::{self, StreamKind};
 use texcrd::diagnostic::SourceMap;
+use texcrd::extract::{self, Text};
+use texcrd::preprocess;
 
 /// Makes a listing of tokens: one that assembles back to the same tokens.
 ///
@@ -21,7 +24,7 @@ pub(super) struct Arguments {
     file: String,
     /// Of a file with several, only this one: the name of its array, or its number from 1.
     #[arg(long, value_name = "NAME|N")]
-    shader: Option<String>,
+    shader: Vec<String>,
     /// Take the tokens for a vertex declaration, whatever they begin with.
     #[arg(long)]
     declaration: bool,
@@ -31,24 +34,29 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let bytes = files::read(&arguments.file)?;
     let name = files::name(&arguments.file);
     let mut sources = SourceMap::new();
-    let input = bytecode::read(&mut sources, name, &bytes);
-    let input = input.map_err(|e| Failure::Input(e.to_string()))?;
-    let Some(input) = input else {
+    let file = extract::open(&mut sources, name, bytes, &preprocess::Options::default());
+    let mut file = file.map_err(too_large)?;
+    file.shaders
+        .retain(|shader| matches!(shader.text, Text::Tokens(_)));
+    if file.shaders.is_empty() {
         return Err(Failure::Input(format!(
             "{name}: this holds no tokens; `dis` takes binary files, hexadecimal text and arrays in C sources \
              (`asm` makes tokens of a listing)"
         )));
-    };
+    }
     let mut rejected = false;
     let mut text = String::new();
-    let streams = streams::pick(input, arguments.shader.as_deref())?;
-    let several = streams.len() > 1;
-    for (mut stream, name) in streams.clone().into_iter().zip(streams::names(&streams)) {
+    let opened = pick(file, &arguments.shader, &arguments.file)?;
+    let several = opened.shaders.len() > 1;
+    for (name, shader) in opened.shaders {
+        let Text::Tokens(mut stream) = shader.text else {
+            continue;
+        };
         if arguments.declaration {
             stream.kind = StreamKind::Declaration;
         }
         let made = bytecode::disassemble(&stream, &mut sources);
-        let made = made.map_err(|e| Failure::Input(e.to_string()))?;
+        let made = made.map_err(too_large)?;
         anstream::eprint!("{}", diagnostics::render(&sources, &made.diagnostics));
         match made.listing {
             None => rejected = true,

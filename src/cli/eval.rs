@@ -1,13 +1,13 @@
 //! `eval`: one invocation on the CPU.
 
 use super::given::{self, Loaded};
-use super::{Format, Outcome, dialect, print, print_json};
+use super::shaders::Reading;
+use super::{Format, Outcome, print, print_json};
 use serde_json::{Map, Value, json};
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, Trace, bind_constants};
 use texcrd::isa::{ShaderKind, WriteMask};
 use texcrd::kernel::{Kernel, Slot};
-use texcrd::policy::Dialect;
 use texcrd::program::{Instruction, Program};
 
 /// Runs a listing once, with values set by hand, and prints its registers.
@@ -20,7 +20,7 @@ Examples:
   texcrd eval shader.vsh --set v0=1,2,3 --trace
   echo 'ps.1.1 mul r0, v0, c0' | texcrd eval - --set v0=1 --set c0=0.5 --format json")]
 pub(super) struct Arguments {
-    /// The listing; `-` is standard input.
+    /// A listing, or a file with shaders in it; `-` is standard input.
     #[arg(value_name = "FILE")]
     file: String,
     /// Sets an input or a constant: v#, t# (texture coordinates) or c#. One number fills all four components; of
@@ -37,9 +37,8 @@ pub(super) struct Arguments {
     /// How results are written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Whose rules: d3d8, d3d9 or lenient.
-    #[arg(long, value_parser = dialect, default_value = "d3d8")]
-    dialect: Dialect,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
@@ -47,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         sources,
         program,
         kernel,
-    } = given::load(&arguments.file, arguments.dialect)?;
+    } = given::load(&arguments.file, &arguments.reading)?;
     let given = given::given(&arguments.set, program.version)?;
     let mut machine = Machine::<1>::new();
     for input in given.inputs(&kernel) {

@@ -1,12 +1,11 @@
 //! A listing that is run with values set by hand: what `eval` and `debug` have in common.
 
-use super::{Failure, diagnostics, files};
+use super::shaders::{Reading, not_one};
+use super::{Failure, diagnostics};
 use texcrd::debug::Given;
 use texcrd::diagnostic::{SourceMap, any_error};
 use texcrd::isa::Version;
 use texcrd::kernel::{self, Kernel};
-use texcrd::listing;
-use texcrd::policy::Dialect;
 use texcrd::program::Program;
 
 /// A listing that can run.
@@ -16,18 +15,22 @@ pub(super) struct Loaded {
     pub(super) kernel: Kernel,
 }
 
-/// Reads a listing and says what is wrong with it.
-pub(super) fn load(path: &str, dialect: Dialect) -> Result<Loaded, Failure> {
-    let bytes = files::read(path)?;
+/// Reads a listing, or the one shader of a file that is meant, and says what is wrong with it.
+pub(super) fn load(path: &str, reading: &Reading) -> Result<Loaded, Failure> {
     let mut sources = SourceMap::new();
-    let file = sources
-        .add(files::name(path), bytes)
-        .map_err(|e| Failure::Input(e.to_string()))?;
-    let checked = listing::check(file, dialect);
-    anstream::eprint!("{}", diagnostics::render(&sources, &checked.diagnostics));
-    let Some(program) = checked.accepted() else {
-        return Err(match diagnostics::summary(&checked.diagnostics) {
-            Some(summary) if any_error(&checked.diagnostics) => Failure::Input(summary),
+    let opened = reading.open(&mut sources, path)?;
+    let (all, found) = reading.check_all(&mut sources, path, &opened, false)?;
+    let [checked] = &all[..] else {
+        if opened.shaders.is_empty() {
+            anstream::eprint!("{}", diagnostics::render(&sources, &found));
+        }
+        return Err(not_one(&opened, path));
+    };
+    anstream::eprint!("{}", diagnostics::render(&sources, &found));
+    let program = checked.program.as_ref().filter(|_| !any_error(&found));
+    let Some(program) = program else {
+        return Err(match diagnostics::summary(&found) {
+            Some(summary) if any_error(&found) => Failure::Input(summary),
             _ => Failure::Rejected,
         });
     };

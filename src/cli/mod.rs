@@ -16,18 +16,20 @@ mod dis;
 mod eval;
 mod files;
 mod filters;
+mod fmt;
 mod fuzz_match;
 mod generate;
 mod given;
+mod includes;
 mod reflect;
 mod run;
 mod scene;
-mod streams;
+mod shaders;
 mod test;
 mod translate;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use std::fmt;
+use std::fmt::{Display, Formatter};
 use std::process::ExitCode;
 use texcrd::policy::Dialect;
 
@@ -61,6 +63,7 @@ enum Command {
     Debug(debug::Arguments),
     Dis(dis::Arguments),
     Eval(eval::Arguments),
+    Fmt(fmt::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
     Run(run::Arguments),
@@ -88,8 +91,8 @@ enum Failure {
     Io(String),
 }
 
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Display for Failure {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::Rejected => Ok(()),
             Failure::Input(message) | Failure::Io(message) => f.write_str(message),
@@ -117,6 +120,7 @@ pub(crate) fn main() -> ExitCode {
         #[cfg(feature = "servers")]
         Command::Dap(arguments) => dap::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Fmt(arguments) => fmt::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),

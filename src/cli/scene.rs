@@ -71,7 +71,7 @@ fn warn(scene: &Scene) {
     let file = |warning: &Diagnostic| {
         scene
             .sources()
-            .file_of(warning.span.start)
+            .file_of(scene.sources().written(warning.span).start)
             .map(SourceFile::name)
     };
     let is_listing = |warning: &&Diagnostic| !warning.rule.id.starts_with('F');

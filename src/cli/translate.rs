@@ -1,15 +1,14 @@
 //! `translate`: listings to WGSL and other shading languages.
 
 use super::baked::Baked;
-use super::{Failure, Outcome, diagnostics, dialect, files, print, print_json, reflect};
+use super::shaders::{Reading, not_one};
+use super::{Failure, Outcome, diagnostics, files, print, print_json, reflect};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use texcrd::diagnostic::{SourceMap, any_error};
 use texcrd::isa::ShaderKind;
 use texcrd::kernel::{self, Kernel};
 use texcrd::languages::{self, Language};
-use texcrd::listing;
-use texcrd::policy::Dialect;
 use texcrd::program::Program;
 use texcrd::wgsl::{Stage, translate};
 
@@ -22,7 +21,8 @@ Examples:
   texcrd translate shader.psh --texture 3=cube --reflect
   texcrd translate shader.vsh shader.psh --to glsl -o shader       writes shader.vert and shader.frag")]
 pub(super) struct Arguments {
-    /// The listings: one, or two of which one is a vertex and one a pixel shader; `-` is standard input.
+    /// The listings: one, or two of which one is a vertex and one a pixel shader; or a file with shaders in it, of which
+    /// --shader picks as many. `-` is standard input.
     #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
     files: Vec<String>,
     /// The language: wgsl, spirv, glsl, hlsl or msl.
@@ -36,9 +36,8 @@ pub(super) struct Arguments {
     reflect: bool,
     #[command(flatten)]
     baked: Baked,
-    /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
-    #[arg(long, value_parser = dialect, default_value = "d3d8")]
-    dialect: Dialect,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 /// A language on the command line.
@@ -63,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let mut sources = SourceMap::new();
     let mut shaders = Vec::new();
     for path in &arguments.files {
-        shaders.push(read(path, arguments, &mut sources)?);
+        shaders.extend(read(path, arguments, &mut sources)?);
     }
     let stage_of = |kind: ShaderKind| {
         let found = shaders.iter().find(|(p, _)| p.version.kind() == kind)?;
@@ -74,7 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         })
     };
     let (vertex, pixel) = (stage_of(ShaderKind::Vertex), stage_of(ShaderKind::Pixel));
-    if shaders.len() == 2 && (vertex.is_none() || pixel.is_none()) {
+    if shaders.len() != usize::from(vertex.is_some()) + usize::from(pixel.is_some()) {
         let message = "two listings are linked if one is a vertex and one a pixel shader";
         return Err(Failure::Io(message.into()));
     }
@@ -134,25 +133,34 @@ fn write(arguments: &Arguments, written: &[(Option<PathBuf>, &[u8])]) -> Outcome
     Ok(())
 }
 
-/// Reads and lowers a listing.
+/// Reads and lowers the shaders of a file: one, or two for two stages.
 fn read(
     path: &str,
     arguments: &Arguments,
     sources: &mut SourceMap,
-) -> Result<(Program, Kernel), Failure> {
-    let bytes = files::read(path)?;
-    let file = sources
-        .add(files::name(path), bytes)
-        .map_err(|e| Failure::Input(e.to_string()))?;
-    let checked = listing::check(file, arguments.dialect);
-    if any_error(&checked.diagnostics) {
-        anstream::eprint!("{}", diagnostics::render(sources, &checked.diagnostics));
+) -> Result<Vec<(Program, Kernel)>, Failure> {
+    let opened = arguments.reading.open(sources, path)?;
+    let most = 3 - arguments.files.len();
+    if !(1..=most).contains(&opened.shaders.len()) && !any_error(&opened.file.diagnostics) {
+        return Err(not_one(&opened, path));
     }
-    let Some(program) = checked.accepted() else {
-        let summary = diagnostics::summary(&checked.diagnostics).unwrap_or_default();
+    let (all, found) = arguments.reading.check_all(sources, path, &opened, false)?;
+    if any_error(&found) {
+        anstream::eprint!("{}", diagnostics::render(sources, &found));
+        let summary = diagnostics::summary(&found).unwrap_or_default();
         return Err(Failure::Input(format!("{}: {summary}", files::name(path))));
-    };
-    let kernel = kernel::lower(program, &arguments.baked.lowering())
-        .map_err(|e| Failure::Input(format!("{}: {e}", files::name(path))))?;
-    Ok((program.clone(), kernel))
+    }
+    let mut lowered = Vec::new();
+    for checked in all {
+        let Some(program) = checked.program else {
+            return Err(Failure::Input(format!(
+                "{}: this is no shader",
+                files::name(path)
+            )));
+        };
+        let kernel = kernel::lower(&program, &arguments.baked.lowering())
+            .map_err(|e| Failure::Input(format!("{}: {e}", files::name(path))))?;
+        lowered.push((program, kernel));
+    }
+    Ok(lowered)
 }

@@ -1,11 +1,14 @@
 //! What texcrd has to say about a listing: rule, place, message and, where it can be known, the repair.
 //!
 //! This room knows nothing of shaders. A [`Rule`] is defined where it is checked (`syntax`, `validate`);
-//! a [`Diagnostic`] is one breach of it at one [`Span`]; a [`SourceMap`] turns spans into lines and columns.
+//! a [`Diagnostic`] is one breach of it at one [`Span`]; a [`SourceMap`] turns spans into lines and columns,
+//! also of texts that a preprocessor made of others.
 //! The rules' identifiers are stable: they are printed, documented and never reused.
 
+mod origin;
 mod source;
 
+pub use origin::{Derivation, Expansion, Note, Piece};
 pub use source::{Location, SourceFile, SourceMap, Span, TooLarge};
 
 /// A rule with its stable identifier.

@@ -1,7 +1,9 @@
 //! Texts and places in them.
 
+use super::origin::{Derivation, Origin};
 use std::borrow::Cow;
 use std::fmt;
+use std::sync::Arc;
 
 /// A half-open range of bytes in the common address space of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -66,9 +68,10 @@ impl std::error::Error for TooLarge {}
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     name: String,
-    bytes: Vec<u8>,
-    base: u32,
+    pub(super) bytes: Arc<[u8]>,
+    pub(super) base: u32,
     line_starts: Vec<u32>,
+    pub(super) origin: Origin,
 }
 
 impl SourceFile {
@@ -80,6 +83,11 @@ impl SourceFile {
     /// The text.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
+    }
+
+    /// The text, to be kept while others are added.
+    pub(crate) fn shared_bytes(&self) -> Arc<[u8]> {
+        Arc::clone(&self.bytes)
     }
 
     /// The span of the whole text.
@@ -166,7 +174,41 @@ impl SourceMap {
         name: impl Into<String>,
         bytes: impl Into<Vec<u8>>,
     ) -> Result<&SourceFile, TooLarge> {
-        let (name, bytes) = (name.into(), bytes.into());
+        self.add_from(name.into(), bytes.into(), Origin::Written)
+    }
+
+    /// Adds a text that another one includes at `at`.
+    ///
+    /// # Errors
+    /// As [`Self::add`].
+    pub fn add_included(
+        &mut self,
+        name: impl Into<String>,
+        bytes: impl Into<Vec<u8>>,
+        at: Span,
+    ) -> Result<&SourceFile, TooLarge> {
+        self.add_from(name.into(), bytes.into(), Origin::Included(at))
+    }
+
+    /// Adds a text that was made of texts of this map. Its places are told as those of what it was made of.
+    ///
+    /// # Errors
+    /// As [`Self::add`].
+    pub fn add_derived(
+        &mut self,
+        name: impl Into<String>,
+        bytes: impl Into<Vec<u8>>,
+        derivation: Derivation,
+    ) -> Result<&SourceFile, TooLarge> {
+        self.add_from(name.into(), bytes.into(), Origin::Derived(derivation))
+    }
+
+    fn add_from(
+        &mut self,
+        name: String,
+        bytes: Vec<u8>,
+        origin: Origin,
+    ) -> Result<&SourceFile, TooLarge> {
         // One byte lies between two texts, so that an empty span at the end of one is not the start of the next.
         let base = self.files.last().map_or(0, |f| f.span().end + 1);
         if bytes.len() > Self::MAX_BYTES || u64::from(base) + bytes.len() as u64 >= u32::MAX.into()
@@ -181,9 +223,10 @@ impl SourceMap {
         let at = self.files.len();
         self.files.push(SourceFile {
             name,
-            bytes,
+            bytes: bytes.into(),
             base,
             line_starts,
+            origin,
         });
         Ok(&self.files[at])
     }
@@ -195,12 +238,17 @@ impl SourceMap {
 
     /// The text that holds this offset.
     pub fn file_of(&self, offset: u32) -> Option<&SourceFile> {
-        let at = self.files.partition_point(|f| f.base <= offset);
-        self.files.get(at.checked_sub(1)?)
+        self.files.get(self.number_of(offset)?)
     }
 
-    /// Where a span lies, for people. `None` only if the map is empty.
+    pub(super) fn number_of(&self, offset: u32) -> Option<usize> {
+        let behind = self.files.partition_point(|f| f.base <= offset);
+        behind.checked_sub(1)
+    }
+
+    /// Where a span was [written](Self::written), for people. `None` only if the map is empty.
     pub fn locate(&self, span: Span) -> Option<Location<'_>> {
+        let span = self.written(span);
         let file = self.file_of(span.start)?;
         let (line, column) = file.location(span.start - file.base);
         let (end_line, end_column) = file.location(span.end.max(span.start) - file.base);
@@ -213,14 +261,20 @@ impl SourceMap {
         })
     }
 
-    /// The text of a span, unreadable bytes replaced.
+    /// The text of a span as it was read, unreadable bytes replaced: of a derived text what it says, not what it was
+    /// made of.
     pub fn text(&self, span: Span) -> Cow<'_, str> {
+        text_of(self.bytes(span))
+    }
+
+    /// The bytes of a span; empty if it lies in no text.
+    pub fn bytes(&self, span: Span) -> &[u8] {
         let bytes = self.file_of(span.start).and_then(|f| {
             let range =
                 (span.start - f.base) as usize..(span.end.max(span.start) - f.base) as usize;
             f.bytes.get(range)
         });
-        text_of(bytes.unwrap_or(&[]))
+        bytes.unwrap_or(&[])
     }
 }
 

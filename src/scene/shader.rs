@@ -1,15 +1,18 @@
 //! The listings of a draw.
 
+use std::io;
 use std::sync::Arc;
 
 use super::error::{Problems, rules};
 use super::files::Files;
+use super::resolve::Resolver;
 use super::section::{At, Section};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, SourceFile, Span};
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Options, lower};
 use crate::listing;
 use crate::policy::Dialect;
+use crate::preprocess::{self, Included};
 use crate::program::Program;
 
 /// A shader of a draw: what was written and what runs.
@@ -70,7 +73,7 @@ pub(crate) fn read(
             let bytes = text.value.into_bytes();
             (
                 text.span,
-                program(name, bytes, text.span, dialect, files, problems)?,
+                program("", name, bytes, text.span, dialect, files, problems)?,
             )
         }
         (Some(_), Some(text)) => {
@@ -102,14 +105,46 @@ fn from_file(
         return known.clone();
     }
     let name = files.resolver.display_name(&path.value);
-    let found = files
-        .read(path, problems)
-        .and_then(|bytes| program(name, bytes, path.span, dialect, files, problems));
+    let found = files.read(path, problems).and_then(|bytes| {
+        program(
+            &path.value,
+            name,
+            bytes,
+            path.span,
+            dialect,
+            files,
+            problems,
+        )
+    });
     files.programs.insert(path.value.clone(), found.clone());
     found
 }
 
+/// Files that a listing includes, beside it.
+struct Includes<'a> {
+    resolver: &'a dyn Resolver,
+    /// The path of the listing as the scene file writes it; empty for one in the scene file itself.
+    listing: &'a str,
+}
+
+impl preprocess::Resolver for Includes<'_> {
+    fn include(&self, path: &str, _: bool, from: Option<&str>) -> io::Result<Included> {
+        let from = from.unwrap_or(self.listing);
+        let folder = from
+            .rfind(['/', '\\'])
+            .map_or("", |at| from.get(..=at).unwrap_or(""));
+        let path = format!("{folder}{path}");
+        Ok(Included {
+            name: self.resolver.display_name(&path),
+            bytes: self.resolver.read(&path)?,
+            path,
+        })
+    }
+}
+
+/// `listing`: its path, for the files that it includes.
 fn program(
+    listing: &str,
     name: String,
     bytes: Vec<u8>,
     span: Span,
@@ -117,8 +152,23 @@ fn program(
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
-    let checked = match files.sources.add(name, bytes) {
-        Ok(file) => listing::check(file, dialect),
+    let file = files.sources.add(name, bytes).map(SourceFile::span);
+    let checked = match file {
+        Ok(file) => {
+            let resolver = Includes {
+                resolver: files.resolver,
+                listing,
+            };
+            let options = listing::Options {
+                dialect,
+                preprocess: preprocess::Options {
+                    definitions: &[],
+                    resolver: &resolver,
+                },
+                ..Default::default()
+            };
+            listing::read(&mut files.sources, file, &options)
+        }
         Err(error) => {
             problems.error(&rules::LIMIT, span, error.to_string());
             return None;

@@ -8,6 +8,12 @@ use super::rules;
 use crate::diagnostic::Diagnostic;
 use crate::isa::RegisterFile;
 
+/// A sum with one more term; out of range of any register it stays out of range.
+fn added(sum: i64, number: u32, minus: bool) -> i64 {
+    let number = i64::from(number);
+    sum.saturating_add(if minus { -number } else { number })
+}
+
 impl Parser<'_> {
     /// The brackets behind `c` or `c12`.
     pub(super) fn index(&mut self, operand: &mut WrittenRegister) {
@@ -15,15 +21,21 @@ impl Parser<'_> {
             return;
         }
         let open = self.bump();
-        let mut sum = Some(operand.register.index);
+        let mut sum = i64::from(operand.register.index);
         let mut relative = false;
+        let mut minus = None;
         let problem = loop {
             let term = self.bump();
             match term.kind {
                 Kind::Number => match self.word(term).parse::<u32>() {
-                    Ok(number) => sum = sum.and_then(|s| s.checked_add(number)),
+                    Ok(number) => sum = added(sum, number, minus.is_some()),
                     Err(_) => break Some("is no whole number that an index can have"),
                 },
+                Kind::Word
+                    if minus.is_some() && names::whole_numbers(self.word(term)).is_empty() =>
+                {
+                    break Some("is subtracted: only numbers can be");
+                }
                 Kind::Word => match names::register(self.word(term), self.version) {
                     found @ (Found::Exact(Name::Register(RegisterFile::Addr, 0))
                     | Found::Misread(Name::Register(RegisterFile::Addr, 0), _)) => {
@@ -51,9 +63,8 @@ impl Parser<'_> {
                         [only] => {
                             let message = format!("{} is no number", self.quoted(term));
                             self.misread(&rules::INDEX, self.span(term), message, only);
-                            sum = sum
-                                .zip(only.parse().ok())
-                                .and_then(|(s, n): (u32, u32)| s.checked_add(n));
+                            let number = only.parse().unwrap_or(u32::MAX);
+                            sum = added(sum, number, minus.is_some());
                         }
                         several => {
                             operand.damaged = true;
@@ -62,7 +73,6 @@ impl Parser<'_> {
                         }
                     },
                 },
-                Kind::Minus | Kind::Dash => break Some("subtracts: an index only adds"),
                 Kind::Close => break Some("closes an index without a number"),
                 _ => break Some("stands where a number or `a0.x` should"),
             }
@@ -74,11 +84,9 @@ impl Parser<'_> {
                 }
                 Kind::Plus => {
                     self.bump();
+                    minus = None;
                 }
-                Kind::Minus | Kind::Dash => {
-                    self.bump();
-                    break Some("subtracts: an index only adds");
-                }
+                Kind::Minus | Kind::Dash => minus = Some(self.bump()),
                 _ => {
                     let message = "this index has no `]`";
                     let help = "write `]` behind the index";
@@ -97,11 +105,14 @@ impl Parser<'_> {
             if term.kind != Kind::Close {
                 self.skip_index();
             }
-        } else if let Some(index) = sum {
+        } else if let Ok(index) = u32::try_from(sum) {
             operand.register.index = index;
             operand.register.relative = relative;
         } else {
-            let message = "the sum in this index is larger than any register number";
+            let message = match sum < 0 {
+                true => "the numbers in this index add up to less than 0, which no token can say",
+                false => "the sum in this index is larger than any register number",
+            };
             let span = self.span_from(open);
             self.report(Diagnostic::error(&rules::INDEX, span, message));
             operand.damaged = true;

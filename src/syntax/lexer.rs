@@ -50,6 +50,11 @@ pub(super) struct Token {
     pub(super) first: bool,
 }
 
+/// The tokens of a text, whatever is wrong with it.
+pub(super) fn tokens(text: &[u8]) -> Vec<Token> {
+    lex_up_to(text, 0, MOST_TOKENS, &mut Reports::default()).tokens
+}
+
 /// The tokens of a text.
 pub(super) struct Lexed {
     /// Never empty: [`Kind::End`] is the last.
@@ -63,8 +68,17 @@ pub(super) struct Lexed {
 /// More tokens than the largest text of instructions that any version takes, by far; bounds the memory.
 const MOST_TOKENS: usize = 1 << 20;
 
+/// The first tokens of a text, `most` or one more.
+pub(super) fn lex_some(text: &[u8], most: usize, reports: &mut Reports) -> Vec<Token> {
+    lex_up_to(text, 0, most, reports).tokens
+}
+
 /// Splits a text into tokens.
 pub(super) fn lex(text: &[u8], base: u32, reports: &mut Reports) -> Lexed {
+    lex_up_to(text, base, MOST_TOKENS, reports)
+}
+
+fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexed {
     let mut lexer = Lexer {
         text,
         base,
@@ -96,7 +110,7 @@ pub(super) fn lex(text: &[u8], base: u32, reports: &mut Reports) -> Lexed {
             });
             break;
         };
-        if tokens.len() == MOST_TOKENS {
+        if tokens.len() == most {
             tokens.push(Token {
                 first: true,
                 ..token(Kind::End, start)
@@ -217,8 +231,12 @@ impl<'a> Lexer<'a, '_> {
         if !matches!(text.as_str(), "line" | "pragma" | "") && !self.directives.contains(&text) {
             let start = self.base + self.offset(rest);
             let span = Span::new(start, self.base + self.offset(after));
-            let message = format!("#{} is not supported yet", quote(name).trim_matches('`'));
-            let help = "run the listing through a C preprocessor first, or write out what the directive stands for";
+            let message = format!(
+                "#{} stands behind the preprocessor",
+                quote(name).trim_matches('`')
+            );
+            let help =
+                "macros cannot make directives, and this text may not have been preprocessed";
             let report = Diagnostic::error(&rules::DIRECTIVE, span, message).with_help(help);
             self.reports.push(report);
             if self.directives.len() < 64 {

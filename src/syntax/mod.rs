@@ -10,6 +10,7 @@ mod comment;
 mod confuse;
 mod declare;
 mod fix;
+mod format;
 mod index;
 mod lexer;
 mod list;
@@ -30,7 +31,10 @@ mod tests;
 
 pub(crate) use confuse::distance;
 pub use fix::apply_fixes;
+pub use format::format;
+pub(crate) use format::format_block;
 pub use printer::{print, print_instruction};
+pub(crate) use prologue::{begins_with_version, not_text};
 pub use rules::RULES;
 pub use unread::unread;
 
@@ -48,6 +52,8 @@ pub struct Options {
     /// Whether what can be passed over without changing what the rest means, such as `_sat` on a source, is told as a
     /// warning instead of an error.
     pub lenient: bool,
+    /// Whether names may have been defined that are not known, so that nothing is said of words that may be such names.
+    pub names_missing: bool,
 }
 
 /// What was read from a text.
@@ -109,7 +115,7 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         tokens: lexed.tokens,
         at: 0,
         version: options.version.unwrap_or(Version::Vs11),
-        names_missing: lexed.names_missing,
+        names_missing: lexed.names_missing || options.names_missing,
         reports,
         statements: Vec::new(),
         damaged: Vec::new(),

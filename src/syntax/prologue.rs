@@ -1,7 +1,7 @@
 //! What stands before the first instruction: the version, or what is there in its place.
 
 use super::confuse::alike;
-use super::lexer::{Kind, Token};
+use super::lexer::{self, Kind, Token};
 use super::names::{self, Found, VersionText};
 use super::parser::Parser;
 use super::report::quote;
@@ -214,8 +214,20 @@ impl Parser<'_> {
     }
 }
 
+/// Whether a text begins with a version instruction and more behind it; comments, blank lines and lines for the
+/// preprocessor may stand before it.
+pub(crate) fn begins_with_version(text: &[u8]) -> bool {
+    let mut reports = super::report::Reports::default();
+    // A version stands near the beginning of its text, or behind comments.
+    let tokens = lexer::lex_some(text, 2, &mut reports);
+    match &tokens[..] {
+        [version, behind, ..] => version.kind == Kind::Version && behind.kind != Kind::End,
+        _ => false,
+    }
+}
+
 /// Says what a text is that is no text.
-pub(super) fn not_text(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+pub(crate) fn not_text(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     const KNOWN: [(&[u8], &str, &str); 9] = [
         (b"\x89PNG", "a PNG picture", ""),
         (b"\xFF\xD8\xFF", "a JPEG picture", ""),

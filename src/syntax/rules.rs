@@ -18,7 +18,7 @@ rules! {
     VERSION_TWICE "P4" "A listing holds one shader and so one version instruction.";
     COMMENT "P5" "A comment begins with ; or // and ends with its line, or stands between /* and */.";
     COMMENT_OPEN "P6" "A comment that begins with /* ends with */.";
-    DIRECTIVE "P7" "Lines that begin with # speak to the preprocessor, of which only #line and #pragma are read.";
+    DIRECTIVE "P7" "Lines that begin with # speak to the preprocessor, which comes before the assembler.";
     INSTRUCTION "P8" "A statement begins with the mnemonic of an instruction of Direct3D 8.";
     MNEMONIC_LOST "P9" "Operands stand behind the mnemonic of their instruction.";
     OPERAND_COUNT "P10" "An instruction has as many operands as its form has, no more and no fewer.";

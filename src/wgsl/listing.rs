@@ -19,8 +19,15 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn new(stage: &'a Stage<'a>) -> Self {
-        let span = stage.program.span;
-        let file = stage.source.file_of(span.start);
+        // Of a text that macros have made, what was written is quoted.
+        let mut span = stage.source.written(stage.program.span);
+        let file = stage
+            .source
+            .file_of(stage.source.written(stage.program.version_span).start);
+        if let Some(file) = file.filter(|file| file.span().to(span) != file.span()) {
+            // It begins in a file that is included.
+            span = file.span();
+        }
         let lines = stage.source.locate(span).map_or((1, 0), |l| {
             // A shader that ends with a line end does not reach into the next line.
             (
@@ -44,6 +51,7 @@ impl<'a> Lines<'a> {
 
     /// Quotes the line on which a statement begins and all lines before it that were not given out yet.
     pub(super) fn up_to(&mut self, statement: Span, push: &mut dyn FnMut(Arguments<'_>)) {
+        let statement = self.stage.source.written(statement);
         let Some(here) = self.stage.source.file_of(statement.start) else {
             return;
         };

@@ -8,6 +8,7 @@ mod debug;
 mod dis;
 mod eval;
 mod generate;
+mod hosts;
 mod pictures;
 mod run;
 mod test;

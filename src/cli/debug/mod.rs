@@ -4,12 +4,12 @@ mod effects;
 mod line;
 
 use super::given::{self, Loaded};
-use super::{Failure, Outcome, dialect, scene};
+use super::shaders::Reading;
+use super::{Failure, Outcome, scene};
 use std::io::IsTerminal;
 use texcrd::debug::{
     Listing, ListingSubject, PixelSubject, Session, Subject, VertexSubject, Which,
 };
-use texcrd::policy::Dialect;
 use texcrd::scene::RenderOptions;
 
 /// Steps through a shader, forwards and backwards, register by register.
@@ -66,9 +66,8 @@ pub(super) struct Arguments {
     #[cfg(feature = "tui")]
     #[arg(long, value_name = "WAY", conflicts_with = "plain")]
     pictures: Option<crate::tui::Protocol>,
-    /// Whose rules: d3d8, d3d9 or lenient.
-    #[arg(long, value_parser = dialect, default_value = "d3d8")]
-    dialect: Dialect,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 /// The value parser of `--pixel`.
@@ -113,7 +112,7 @@ fn of_listing(arguments: &Arguments) -> Outcome {
         sources,
         program,
         kernel,
-    } = given::load(&arguments.file, arguments.dialect)?;
+    } = given::load(&arguments.file, &arguments.reading)?;
     let given = given::given(&arguments.set, program.version)?;
     let subject = ListingSubject {
         listing: Listing {
@@ -132,7 +131,7 @@ fn of_scene(arguments: &Arguments) -> Outcome {
         return Err(Failure::Io(format!("--set: {why}")));
     }
     let path = &arguments.file;
-    let scene = scene::load(path, arguments.dialect)?;
+    let scene = scene::load(path, arguments.reading.dialect)?;
     let options = RenderOptions {
         size: arguments.size,
         ..RenderOptions::default()

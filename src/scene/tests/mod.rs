@@ -20,6 +20,11 @@ fn files() -> MemoryFiles {
         ("flat.vsh", "vs.1.1\nmov oPos, v0\n"),
         ("c0.psh", "ps.1.1\nmov r0, c0\n"),
         ("stage0.psh", "ps.1.1\ntex t0\nmov r0, t0\n"),
+        (
+            "sub/a.psh",
+            "ps.1.1\n#include \"b.inc\"\n#include \"none.inc\"\n",
+        ),
+        ("sub/b.inc", "#define R r0\nmov R, c0\nmov R, v9\n"),
         ("broken.psh", "ps.1.1\nmov r0, c0\nmvo r0, c0\n"),
     ]
     .into_iter()

@@ -27,6 +27,21 @@ fn what_is_wrong_with_a_listing_stands_at_the_listing() {
     );
 }
 
+/// Files lie beside the listing that includes them.
+#[test]
+fn listings_include_files() {
+    let text = format!("{MESH}[[draw]]\nmesh = \"m\"\nvs = \"flat.vsh\"\nps = \"sub/a.psh\"\n");
+    let found = lines(&text);
+    let starts = |line: &str| found.iter().any(|found| found.starts_with(line));
+    assert!(starts("sub/b.inc:3:8: error[O1]"), "{found:#?}");
+    assert!(
+        starts("sub/a.psh:3:10: error[P28]: `none.inc` cannot be read"),
+        "{found:#?}"
+    );
+    let errors = found.iter().filter(|line| line.contains(": error["));
+    assert_eq!(errors.count(), 2, "{found:#?}");
+}
+
 #[test]
 fn warnings_do_not_refuse() {
     let scene = loaded(&format!(

@@ -212,7 +212,7 @@ fn many_errors_end_in_one_that_says_so() {
 fn repairs_of_one_place_do_not_meet() {
     use crate::diagnostic::{Fix, Span};
     let mut map = SourceMap::new();
-    let file = map.add("a", "abcdef").unwrap();
+    map.add("a", "abcdef").unwrap();
     let fix = |start, end, text: &str, certain| {
         let span = Span::new(start, end);
         Diagnostic::error(RULES[0], span, "").with_fix(Fix {
@@ -230,7 +230,10 @@ fn repairs_of_one_place_do_not_meet() {
         fix(90, 91, "out", true),
     ];
     // 0: "+" before a; 1..3 becomes X; 2..4 overlaps and is left; 4..5 becomes E.
-    assert_eq!(apply_fixes(file, &list), (b"+aXdEf".to_vec(), 3));
+    assert_eq!(
+        apply_fixes(&map, &map.files()[0], &list),
+        (b"+aXdEf".to_vec(), 3)
+    );
 }
 
 #[test]
@@ -241,7 +244,7 @@ fn the_form_of_messages() {
         "2:1 P9 no mnemonic stands before these operands (instructions of vs.1.1 that take them: \
          `mov`, `rcp`, `rsq`, `exp`, `log`, `lit`, `frc`, `expp`, `logp`)\n\
          3:1 P8 `muk` is no instruction (did you mean `mul`?) [\"muk\" -> \"mul\"?]\n\
-         4:10 P16 `-` subtracts: an index only adds (an index is written like c[12], c[a0.x + 12] or c12[a0.x])\n\
+         4:10 P16 the numbers in this index add up to less than 0, which no token can say\n\
          5:1 P10 `mul` takes 3 operands (a destination and 2 sources), but 2 are written \
          (instructions of vs.1.1 that take these operands: `mov`, `rcp`, `rsq`, `exp`, `log`, `lit`, `expp`, `logp`)\n"
     );

@@ -23,7 +23,7 @@ fn both_spellings_of_every_version() {
 }
 
 /// Section 12.1: assembles, whatever a validator says.
-const ASSEMBLES: [(&str, &str); 46] = [
+const ASSEMBLES: [(&str, &str); 47] = [
     ("ps.1.3", "mov r0, 1 - r1"),
     ("ps.1.3", "mov_x2_sat r0, 1 - r1"),
     ("ps.1.1", "mov_d4 r0, r1"),
@@ -46,6 +46,7 @@ const ASSEMBLES: [(&str, &str); 46] = [
     ("vs.1.1", "mov r0, c4[ 2 ]"),
     ("vs.1.1", "mov r0, c[ 2 + 10 + 12 ]"),
     ("vs.1.1", "mov r0, c[ 2 + a0.x + 12 ]"),
+    ("vs.1.1", "mov r0, c[ 2 + a0.x - 1 ]"),
     ("vs.1.1", "mov r0, c1[a0.x + 2]"),
     ("vs.1.1", "mov r0, c0[ 1 + 2 + 3 + 4 ]"),
     ("vs.1.1", "dp4 r0.xw, r1.wzyx, r2.xxww"),
@@ -80,7 +81,7 @@ fn what_assembles_is_read() {
 }
 
 /// Section 12.2: never assembles, and no rule of the shader model is needed to say so.
-const NEVER: [(&str, &str, &str); 30] = [
+const NEVER: [(&str, &str, &str); 31] = [
     ("ps.1.3", "mov_x2_x2 r0, r1", "P12"),
     ("ps.1.4", "texld r5, -r2_dz", "P15"),
     ("ps.1.3", "mov r1, 2 - r0", "P15"),
@@ -99,6 +100,7 @@ const NEVER: [(&str, &str, &str); 30] = [
     ("vs.1.1", "mov r0, c0[ a0.y ]", "P16"),
     ("vs.1.1", "mov r0, c[ a0.x + 3.4 ]", "P16"),
     ("vs.1.1", "mov r0, c[ a0.x - 1 ]", "P16"),
+    ("vs.1.1", "mov r0, c[ 5 - a0.x ]", "P16"),
     ("vs.1.1", "mov r0, c[ a0.x + a0.x ]", "P16"),
     ("vs.1.1", "mov r0, c[]", "P16"),
     ("vs.1.1", "mov r0, c[a0.x", "P16"),

@@ -2,6 +2,7 @@
 
 mod damage;
 mod grammar;
+mod layout;
 mod robust;
 mod round_trip;
 mod scans;
@@ -50,7 +51,7 @@ fn only(text: &str) -> Instruction {
 /// The text after one round of certain repairs, with their number.
 fn repaired(text: impl AsRef<[u8]>) -> (String, usize) {
     let (map, parsed) = read(text);
-    let (bytes, count) = apply_fixes(&map.files()[1], &parsed.diagnostics);
+    let (bytes, count) = apply_fixes(&map, &map.files()[1], &parsed.diagnostics);
     (String::from_utf8(bytes).unwrap(), count)
 }
 

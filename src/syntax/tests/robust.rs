@@ -21,7 +21,7 @@ fn survives(text: &[u8]) -> usize {
             );
         }
     }
-    apply_fixes(file, &parsed.diagnostics);
+    apply_fixes(&map, file, &parsed.diagnostics);
     if let Some(program) = &parsed.program {
         crate::syntax::print(program);
     }

@@ -1,0 +1,77 @@
+//! Files that listings include, on disk.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use texcrd::diagnostic::SourceMap;
+use texcrd::preprocess::{Included, Resolver};
+
+/// Looks for included files beside the file that includes them and in the folders of `-I`, as compilers do.
+pub(super) struct Folders<'a> {
+    /// The file that is read; `-` is standard input, which lies in the current folder.
+    pub(super) file: &'a str,
+    pub(super) folders: &'a [PathBuf],
+}
+
+impl Resolver for Folders<'_> {
+    fn include(&self, path: &str, angled: bool, from: Option<&str>) -> io::Result<Included> {
+        let from = Path::new(from.unwrap_or(if self.file == "-" { "" } else { self.file }));
+        let own = from.parent().unwrap_or(Path::new("")).to_path_buf();
+        let given = self.folders.iter().cloned();
+        let folders: Vec<PathBuf> = match angled {
+            true => given.chain([own]).collect(),
+            false => std::iter::once(own).chain(given).collect(),
+        };
+        // Listings were written on Windows.
+        let path = path.replace('\\', "/");
+        let found = folders.iter().find_map(|folder| place(folder, &path));
+        let place = found.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
+        // One byte more than the sources take, so that it is seen to be too long.
+        let most = SourceMap::MAX_BYTES as u64 + 1;
+        let mut bytes = Vec::new();
+        fs::File::open(&place)?.take(most).read_to_end(&mut bytes)?;
+        let name = place.display().to_string();
+        Ok(Included {
+            path: name.clone(),
+            name,
+            bytes,
+        })
+    }
+}
+
+/// The file at a path below a folder. Where there is none, one whose name differs only in the case of letters will do, as
+/// it did on Windows. Pipes and devices are no files.
+fn place(folder: &Path, path: &str) -> Option<PathBuf> {
+    let exact = folder.join(path);
+    if exact.is_file() {
+        return Some(exact);
+    }
+    let mut place = folder.to_path_buf();
+    for part in Path::new(path).components() {
+        let next = place.join(part);
+        place = match next.exists() {
+            true => next,
+            false => alike(&place, part.as_os_str().to_str()?)?,
+        };
+    }
+    place.is_file().then_some(place)
+}
+
+/// What is called so in a folder, but for the case of letters; the first by name.
+fn alike(folder: &Path, name: &str) -> Option<PathBuf> {
+    // More than a folder of shaders has.
+    const LOOKED_AT: usize = 10_000;
+    let folder = if folder == Path::new("") {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let same = |entry: &fs::DirEntry| {
+        entry
+            .file_name()
+            .to_str()
+            .is_some_and(|n| n.eq_ignore_ascii_case(name))
+    };
+    let entries = fs::read_dir(folder).ok()?.take(LOOKED_AT).flatten();
+    entries.filter(same).map(|entry| entry.path()).min()
+}

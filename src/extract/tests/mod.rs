@@ -1,0 +1,317 @@
+//! Shaders in files of other languages. Names and places were worked out by hand.
+
+use super::*;
+use crate::policy::Dialect;
+use std::collections::BTreeMap;
+
+fn opened(text: &str) -> (SourceMap, File) {
+    let mut sources = SourceMap::new();
+    sources.add("before", "ps.1.4\n").unwrap();
+    let file = open(
+        &mut sources,
+        "host",
+        text.into(),
+        &preprocess::Options::default(),
+    )
+    .unwrap();
+    (sources, file)
+}
+
+/// Rule, line and column of everything that is said of all shaders.
+fn told(text: &str) -> Vec<(&'static str, usize, usize)> {
+    let (mut sources, file) = opened(text);
+    let mut all = file.diagnostics.clone();
+    for shader in &file.shaders {
+        all.extend(
+            check(&mut sources, shader, &listing::Options::default())
+                .unwrap()
+                .diagnostics,
+        );
+    }
+    let place = |d: &Diagnostic| {
+        let at = sources.locate(d.span).unwrap();
+        assert_eq!(at.file, "host");
+        (d.rule.id, at.line, at.column)
+    };
+    all.iter().map(place).collect()
+}
+
+fn listing_of(sources: &SourceMap, shader: &Shader) -> String {
+    match &shader.text {
+        Text::Listing { text, .. } => sources.text(*text).into_owned(),
+        Text::Tokens(stream) => format!("{:08X?}", stream.words),
+    }
+}
+
+const EFFECT: &str = "\
+texture Base < string name = \"base.dds\"; >;
+vertexshader Shared < string what = \"shared\"; > = decl
+{
+    stream 0;
+    float v0[3];
+} asm
+{
+    vs.1.1
+    ; a brace in a comment }
+    mov oPos, v0
+    mov oD0, c[CV_ONE]
+};
+technique Water < int i = 1; >
+{
+    pass P0
+    {
+        VertexShader = asm { vs.1.1
+            mov oPos, v0 };
+        PixelShader = asm
+        {
+            ps.1.1
+            mov r0, v9
+        };
+    }
+    pass { PixelShader = asm { ps.1.1
+        mov r0, v0 }; }
+}
+technique { pass Only { PixelShader = asm { ps.1.1
+ add r0, v0 }; } }
+";
+
+#[test]
+fn blocks_of_an_effect() {
+    let (sources, file) = opened(&EFFECT.replace("CV_ONE", "4"));
+    assert_eq!(file.form, Form::Effect);
+    let names = [
+        "Shared",
+        "Water/P0/VertexShader",
+        "Water/P0/PixelShader",
+        "Water/2/PixelShader",
+        "2/Only/PixelShader",
+    ];
+    assert_eq!(file.names(), names);
+    assert_eq!(
+        listing_of(&sources, &file.shaders[1]),
+        " vs.1.1\n            mov oPos, v0 "
+    );
+    assert_eq!(
+        told(&EFFECT.replace("CV_ONE", "4")),
+        [("O1", 22, 21), ("P10", 29, 2)]
+    );
+    for (wanted, found) in [
+        ("Shared", vec![0]),
+        ("2", vec![1]),
+        ("Water", vec![1, 2, 3]),
+        ("Water/P0", vec![1, 2]),
+        ("water/p0/pixelshader", vec![2]),
+        ("6", vec![]),
+        ("0", vec![]),
+        ("W", vec![]),
+    ] {
+        assert_eq!(file.find(wanted), found, "{wanted}");
+    }
+}
+
+#[test]
+fn an_effect_is_preprocessed_as_a_whole() {
+    let text = format!("#define CV_ONE 4\n#if 0\n{EFFECT}#endif\n#if 1\n{EFFECT}#endif\n");
+    let (mut sources, file) = opened(&text);
+    assert_eq!((file.shaders.len(), file.diagnostics.len()), (5, 0));
+    let checked = check(&mut sources, &file.shaders[0], &listing::Options::default()).unwrap();
+    let program = checked.accepted().unwrap();
+    let last = program.instructions().last().unwrap();
+    assert_eq!(last.sources[0].register.index, 4);
+    // The second copy begins in line 34.
+    assert_eq!(sources.locate(last.span).unwrap().line, 34 + 10);
+    // Without the macro there is one error, at its name: line 11, behind `    mov oD0, c[`.
+    let found = told(EFFECT);
+    assert!(found.contains(&("P16", 11, 15)), "{found:?}");
+    // If a file is missing, which may define it, there is none.
+    let found = told(&format!("#include \"consts.h\"\n{EFFECT}"));
+    assert_eq!(found, [("P28", 1, 10), ("O1", 23, 21), ("P10", 30, 2)]);
+}
+
+#[test]
+fn strings_of_c() {
+    let text = "#include <d3d8.h>\n\
+        // \"ps.1.1 in a comment\"\n\
+        const char *profile = \"vs_1_1\", c = '\"';\n\
+        static const char g_PS[] =\n\
+        \x20   \"ps.1.1 // my \\\"shader\\\"\\n\"\n\
+        \x20   \"tex t0\\n\"   /* sample */\n\
+        \x20   \"mul r0, t0, v9\\n\";\n\
+        const char* all[] = { \"ps.1.1\\nmov r0, v0\\n\", \"\", \"vs.1.1\\r\\n\\tmov oPos, v0\\n\" \"mov oD0, \\x63\\060\" };\n\
+        int x = 5; void f() { g(\"  ; x\\n ps.1.1\\n mov r0, vl\\n\"); }\n\
+        auto raw = R\"x(ps.1.1\nmov r0, \"\n)x\";\n\
+        const char *k = \"vs.1.1\\n\\\n    mov oPos, r12\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.form, Form::Source);
+    assert_eq!(file.names(), ["g_PS", "all[0]", "all[2]", "4", "raw", "k"]);
+    assert_eq!(file.find("all"), [1, 2]);
+    assert_eq!(
+        listing_of(&sources, &file.shaders[0]),
+        "ps.1.1 // my \"shader\"\ntex t0\nmul r0, t0, v9\n"
+    );
+    assert_eq!(
+        listing_of(&sources, &file.shaders[2]),
+        "vs.1.1\r\n\tmov oPos, v0\nmov oD0, c0"
+    );
+    let found = told(text);
+    // v9 behind `    "mul r0, t0, `; vl behind `int x = 5; void f() { g("  ; x\n ps.1.1\n mov r0, `; the quote in the raw
+    // string; r12 in the continued line. oPos is written from what is never set (no error of its own line).
+    for expected in [("O1", 7, 18), ("P13", 9, 51), ("O1", 14, 15)] {
+        assert!(found.contains(&expected), "{expected:?} in {found:?}");
+    }
+    assert!(
+        found.iter().any(|f| f.1 == 11 && f.0.starts_with('P')),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn repairs_in_strings() {
+    let text = "const char *s = \"ps.1.1\\n\\tmov r0, vl\\n\";\n";
+    let (mut sources, file) = opened(text);
+    let found = check(&mut sources, &file.shaders[0], &listing::Options::default()).unwrap();
+    let host = sources.file_of(file.span.start).unwrap();
+    let (fixed, count) = syntax::apply_fixes(&sources, host, &found.diagnostics);
+    assert_eq!(
+        (String::from_utf8(fixed).unwrap(), count),
+        (text.replace("vl", "v1"), 1)
+    );
+}
+
+#[test]
+fn arrays_and_strings_in_one_file() {
+    let text = "DWORD dwPS[] = { 0xffff0101, 0x00000001, 0x800f0000, 0x90e40000, 0x0000ffff };\n\
+        const char *s = \"ps.1.1\\nmov r0, v1\\n\";\n";
+    let (mut sources, file) = opened(text);
+    assert_eq!(
+        (file.form, file.names()),
+        (Form::Source, vec!["dwPS".to_string(), "s".to_string()])
+    );
+    for (shader, index) in file.shaders.iter().zip([0, 1]) {
+        let checked = check(&mut sources, shader, &listing::Options::default()).unwrap();
+        let program = checked.accepted().unwrap();
+        assert_eq!(
+            program.instructions().next().unwrap().sources[0]
+                .register
+                .index,
+            index
+        );
+    }
+}
+
+#[test]
+fn what_a_file_is() {
+    let form = |text: &str| opened(text).1.form;
+    for listing in [
+        "ps.1.1\nmov r0, v0 ; asm { ps.1.1 mov r0, v0 }",
+        "; \"ps.1.1\\n mov\"\n#define A 1\nps.1.1\nmov r0, v0",
+        "",
+        "mov r0, v0",
+        "p5.1.1\nmov r0, v0",
+        "char *profile = \"ps_1_1\";",
+        "int main() { asm { mov eax, 1 } }",
+    ] {
+        assert_eq!(form(listing), Form::Listing, "{listing}");
+    }
+    assert_eq!(form("x = asm { mov r0, v0 }"), Form::Effect);
+    assert_eq!(form("asm { ; x\n ps.1.1 mov r0, v0 }"), Form::Effect);
+    assert_eq!(form("ffff0101 0000ffff"), Form::Tokens(bytecode::Form::Hex));
+    let binary = File {
+        ..open(
+            &mut SourceMap::new(),
+            "b",
+            [1, 1, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0].to_vec(),
+            &preprocess::Options::default(),
+        )
+        .unwrap()
+    };
+    assert_eq!(binary.form, Form::Tokens(bytecode::Form::Binary));
+}
+
+#[test]
+fn shaders_of_the_same_name_are_told_apart() {
+    let text = "a = asm { ps.1.1 mov r0, v0 }; a = asm { ps.1.1 mov r0, v1 };";
+    assert_eq!(opened(text).1.names(), ["a", "a#2"]);
+}
+
+/// Included files and definitions reach listings of all kinds; d3d9 judges them all.
+#[test]
+fn options_reach_every_shader() {
+    let files: BTreeMap<String, Vec<u8>> = [("c.h".to_string(), b"#define C c2\n".to_vec())].into();
+    let definitions = ["OUT=r0".parse().unwrap()];
+    let preprocess = preprocess::Options {
+        definitions: &definitions,
+        resolver: &files,
+    };
+    for text in [
+        "#include \"c.h\"\nps.1.1\nmov OUT, C\n",
+        "#include \"c.h\"\nx = asm { ps.1.1 mov OUT, C };",
+        "char *s = \"#include \\\"c.h\\\"\\nps.1.1\\nmov OUT, C\\n\";",
+    ] {
+        let mut sources = SourceMap::new();
+        let file = open(&mut sources, "host", text.into(), &preprocess).unwrap();
+        let options = listing::Options {
+            dialect: Dialect::D3d9,
+            preprocess,
+            ..Default::default()
+        };
+        let checked = check(&mut sources, &file.shaders[0], &options).unwrap();
+        let program = checked.accepted().expect(text);
+        assert_eq!(
+            program.instructions().next().unwrap().sources[0]
+                .register
+                .index,
+            2
+        );
+    }
+}
+
+proptest::proptest! {
+    /// No file may panic or hang, whatever its braces and quotes do.
+    #[test]
+    fn soups(words in proptest::collection::vec(0..WORDS.len(), 0..80)) {
+        let text: String = words.iter().map(|w| WORDS[*w]).collect();
+        let (mut sources, file) = opened(&text);
+        for shader in &file.shaders {
+            let checked = check(&mut sources, shader, &listing::Options::default()).unwrap();
+            for d in &checked.diagnostics {
+                assert!(sources.locate(d.span).is_some());
+                sources.notes(d.span);
+            }
+        }
+        file.find("1");
+    }
+}
+
+const WORDS: [&str; 30] = [
+    "asm",
+    " { ",
+    " } ",
+    "ps.1.1\n",
+    "vs.1.1 ",
+    "mov r0, v0\n",
+    "\"",
+    "\"ps.1.1\\n mov r0, v0\"",
+    "technique ",
+    "pass ",
+    "T",
+    " = ",
+    ";",
+    "<",
+    ">",
+    "[",
+    "]",
+    "'",
+    "\\",
+    "\\x4",
+    "\n",
+    "#define A B\n",
+    "#if 0\n",
+    "#endif\n",
+    "//",
+    "/*",
+    "*/",
+    "R\"(",
+    ")\"",
+    "x[] = {0xffff0101, 0x0000ffff};",
+];
