@@ -94,7 +94,7 @@ pub enum Tone {
     /// 0 is black, 1 is white.
     #[default]
     Plain,
-    /// The same of the absolute value.
+    /// The same of the absolute value, which is taken before the scale: a negative scale makes all of it black.
     Absolute,
     /// −1 is black, 0 is mid grey, 1 is white.
     Signed,
@@ -121,10 +121,11 @@ impl Tone {
     }
 
     /// How bright a number is: 0 to 1 within the range, beyond it outside.
-    fn brightness(self, scaled: f32) -> f32 {
+    fn brightness(self, value: f32, scale: f32) -> f32 {
+        let scaled = value * scale;
         match self {
             Self::Plain => scaled,
-            Self::Absolute => scaled.abs(),
+            Self::Absolute => value.abs() * scale,
             Self::Signed => scaled * 0.5 + 0.5,
             Self::Sign if scaled < 0.0 => 0.0,
             Self::Sign if scaled > 0.0 => 1.0,
@@ -265,7 +266,7 @@ impl Look {
             View::Color if self.is_grey() => Some(values.iter().sum()),
             View::Color => None,
         };
-        let bright = |value: f32| self.tone.brightness(value * self.scale);
+        let bright = |value: f32| self.tone.brightness(value, self.scale);
         // Channels that show nothing are black.
         let channels = match grey {
             Some(value) => [bright(value); 3],
@@ -349,10 +350,10 @@ impl Tone {
         }
         // A loop of its own for each, with nothing to decide in it.
         match self {
-            Self::Plain => each(values, to, |value| Self::Plain.brightness(value * scale)),
-            Self::Absolute => each(values, to, |value| Self::Absolute.brightness(value * scale)),
-            Self::Signed => each(values, to, |value| Self::Signed.brightness(value * scale)),
-            Self::Sign => each(values, to, |value| Self::Sign.brightness(value * scale)),
+            Self::Plain => each(values, to, |value| Self::Plain.brightness(value, scale)),
+            Self::Absolute => each(values, to, |value| Self::Absolute.brightness(value, scale)),
+            Self::Signed => each(values, to, |value| Self::Signed.brightness(value, scale)),
+            Self::Sign => each(values, to, |value| Self::Sign.brightness(value, scale)),
         }
     }
 }
@@ -416,6 +417,7 @@ mod tests {
         assert_eq!(color(&with(Tone::Plain, -2.0), register), [102, 0, 0]);
         assert_eq!(color(&with(Tone::Absolute, 1.0), register), [51, 102, 0]);
         assert_eq!(color(&with(Tone::Absolute, 2.0), register), [102, 204, 0]);
+        assert_eq!(color(&with(Tone::Absolute, -2.0), register), [0; 3]);
         // −0.2·0.5 + 0.5 = 0.4, 0.4·0.5 + 0.5 = 0.7 (178.5, to the even one), 0 is 127.5, to the even one.
         assert_eq!(color(&with(Tone::Signed, 1.0), register), [102, 178, 128]);
         // −0.4·0.5 + 0.5 = 0.3 (76.5), 0.8·0.5 + 0.5 = 0.9 (229.5).

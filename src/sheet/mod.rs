@@ -23,7 +23,7 @@
 //! let all: ShowExpression = "all".parse()?;
 //! let pass = scene.passes(scene.size()).pop().expect("every scene has a picture");
 //! let tiles = all.tiles(&scene, &pass.draws[scene.shown_draw(None)?], Look::default(), false)?;
-//! assert_eq!(tiles[1].caption, "4 mul r0.rgb, r1, r1");
+//! assert_eq!(tiles[1].caption, "3 mul r0.rgb, r1, r1");
 //!
 //! let pictures = tiles.iter().map(|tile| tile.picture).collect();
 //! let options = RenderOptions { size: None, show: Some(Show { draw: None, pictures }) };

@@ -260,7 +260,10 @@ fn scripts_read_like_a_session() {
     assert_eq!(ran.out, expected);
     let csv = fs::read_to_string(path("out.csv")).expect("the export");
     assert!(
-        csv.ends_with("listing,1,2,\"mul r0, v0, c0\",r0,rgba,0,0,0,0,0.5,0.5,0.5,0.5,\n"),
+        csv.ends_with(
+            "listing,1,2,\"mul r0, v0, c0\",r0,rgba,0,0,0,0,0.5,0.5,0.5,0.5,rgba,\
+             \"v0 = 1, 1, 1, 1; c0 = 0.5, 0.5, 0.5, 0.5\",,,,,,\n"
+        ),
         "{csv}"
     );
 }

@@ -256,7 +256,7 @@ fn breakpoints_stop_under_conditions_and_are_counted() {
             .starts_with("r0 is 0.5, 0.25\nbreakpoint 1\n")
     );
     talk.is("cond 1", "1 stops always\n");
-    talk.is("ignore 1 1", "1 passes over its first 1 hits\n");
+    talk.is("ignore 1 1", "1 passes over its first 1 hit\n");
     talk.say("start");
     assert!(talk.say("c").contains("this is the end\n"));
     talk.is("hits 1 == 1", "1 stops at hit 1 only\n");
@@ -317,7 +317,10 @@ fn expressions_are_printed_and_displayed() {
     talk.is("print/c v0", "v0 = #8040ff\n");
     // 0.5·255 = 127.5, to even; 0.5·4096
     talk.is("p/q v0.r", "v0.r = gf3 128/255; r200 2048/4096\n");
-    talk.is("display/c r0", "  1: r0 = #000000\n");
+    talk.is(
+        "display/c r0",
+        "  1: r0 = #000000    (nothing has written r0)\n",
+    );
     talk.is("display a0.x", "  2: a0.x: ps.1.1 has no a0\n");
     // 0.25 is 63.75/255.
     assert!(
@@ -497,30 +500,37 @@ fn everything_can_be_exported() {
     talk.is(
         "export csv",
         "run,moment,line,text,register,components,\
-         before_x,before_y,before_z,before_w,after_x,after_y,after_z,after_w,remarks\n\
-         listing,0,,input,v0,rgba,0,0,0,0,0.5,0.25,1,0.5,\n\
-         listing,1,3,\"mul r0, v0, c0\",r0,rgba,0,0,0,0,0.5,0.25,0.5,0.5,\n\
-         listing,2,4,\"add_sat r0.rgb, r0, c1\",r0,rgb,0.5,0.25,0.5,0.5,1,1,1,0.5,r0.rb was saturated to 0…1\n\
-         listing,3,5,\"+mov r0.a, v0\",r0,a,1,1,1,0.5,1,1,1,0.5,\n",
+         before_x,before_y,before_z,before_w,after_x,after_y,after_z,after_w,\
+         first_write,reads,stage,u,v,w,level,remarks\n\
+         listing,0,,input,v0,rgba,0,0,0,0,0.5,0.25,1,0.5,rgba,,,,,,,\n\
+         listing,1,3,\"mul r0, v0, c0\",r0,rgba,0,0,0,0,0.5,0.25,0.5,0.5,rgba,\
+         \"v0 = 0.5, 0.25, 1, 0.5; c0 = 1, 1, 0.5, 1\",,,,,,\n\
+         listing,2,4,\"add_sat r0.rgb, r0, c1\",r0,rgb,0.5,0.25,0.5,0.5,1,1,1,0.5,,\
+         \"r0.rgb = 0.5, 0.25, 0.5; c1.rgb = 0.75, 0.75, 0.75\",,,,,,r0.rb was saturated to 0…1\n\
+         listing,3,5,\"+mov r0.a, v0\",r0,a,1,1,1,0.5,1,1,1,0.5,,v0.a = 0.5,,,,,,\n",
     );
     talk.is(
         "export json",
         "{\"runs\": [\n  \
          {\"run\": \"listing\", \"version\": \"ps.1.1\", \"moments\": [\n    \
-         {\"text\": \"input\", \"register\": \"v0\", \"components\": \"rgba\", \"before\": [0, 0, 0, 0], \"after\": [0.5, 0.25, 1, 0.5]},\n    \
-         {\"line\": 3, \"text\": \"mul r0, v0, c0\", \"register\": \"r0\", \"components\": \"rgba\", \"before\": [0, 0, 0, 0], \"after\": [0.5, 0.25, 0.5, 0.5]},\n    \
-         {\"line\": 4, \"text\": \"add_sat r0.rgb, r0, c1\", \"register\": \"r0\", \"components\": \"rgb\", \"before\": [0.5, 0.25, 0.5, 0.5], \"after\": [1, 1, 1, 0.5], \"remarks\": [\"r0.rb was saturated to 0…1\"]},\n    \
-         {\"line\": 5, \"text\": \"+mov r0.a, v0\", \"register\": \"r0\", \"components\": \"a\", \"before\": [1, 1, 1, 0.5], \"after\": [1, 1, 1, 0.5]}\n  ]}\n]}\n",
+         {\"text\": \"input\", \"register\": \"v0\", \"components\": \"rgba\", \"before\": [0, 0, 0, 0], \"after\": [0.5, 0.25, 1, 0.5], \
+         \"first_write\": \"rgba\"},\n    \
+         {\"line\": 3, \"text\": \"mul r0, v0, c0\", \"register\": \"r0\", \"components\": \"rgba\", \"before\": [0, 0, 0, 0], \"after\": [0.5, 0.25, 0.5, 0.5], \
+         \"first_write\": \"rgba\", \"reads\": [\"v0 = 0.5, 0.25, 1, 0.5\", \"c0 = 1, 1, 0.5, 1\"]},\n    \
+         {\"line\": 4, \"text\": \"add_sat r0.rgb, r0, c1\", \"register\": \"r0\", \"components\": \"rgb\", \"before\": [0.5, 0.25, 0.5, 0.5], \"after\": [1, 1, 1, 0.5], \
+         \"reads\": [\"r0.rgb = 0.5, 0.25, 0.5\", \"c1.rgb = 0.75, 0.75, 0.75\"], \"remarks\": [\"r0.rb was saturated to 0…1\"]},\n    \
+         {\"line\": 5, \"text\": \"+mov r0.a, v0\", \"register\": \"r0\", \"components\": \"a\", \"before\": [1, 1, 1, 0.5], \"after\": [1, 1, 1, 0.5], \
+         \"reads\": [\"v0.a = 0.5\"]}\n  ]}\n]}\n",
     );
     talk.is(
         "export md",
         "## listing: ps.1.1, test\n\n\
-         | line | instruction | register | value | remarks |\n\
-         | ---: | --- | --- | --- | --- |\n\
-         |  | `input` | v0 | 0.5, 0.25, 1, 0.5 |  |\n\
-         | 3 | `mul r0, v0, c0` | r0 | 0.5, 0.25, 0.5, 0.5 |  |\n\
-         | 4 | `add_sat r0.rgb, r0, c1` | r0.rgb | 1, 1, 1 | r0.rb was saturated to 0…1 |\n\
-         | 5 | `+mov r0.a, v0` | r0.a | 0.5 |  |\n",
+         | line | instruction | register | value | from | remarks |\n\
+         | ---: | --- | --- | --- | --- | --- |\n\
+         |  | `input` | v0 | 0.5, 0.25, 1, 0.5 |  |  |\n\
+         | 3 | `mul r0, v0, c0` | r0 | 0.5, 0.25, 0.5, 0.5 | v0 = 0.5, 0.25, 1, 0.5, c0 = 1, 1, 0.5, 1 |  |\n\
+         | 4 | `add_sat r0.rgb, r0, c1` | r0.rgb | 1, 1, 1 | r0.rgb = 0.5, 0.25, 0.5, c1.rgb = 0.75, 0.75, 0.75 | r0.rb was saturated to 0…1 |\n\
+         | 5 | `+mov r0.a, v0` | r0.a | 0.5 | v0.a = 0.5 |  |\n",
     );
     let reply = talk
         .console

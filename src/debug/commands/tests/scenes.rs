@@ -145,7 +145,7 @@ fn other_primitives_pixels_and_vertices() {
         talk.say("pixel 0,3")
             .contains("   draw front, primitive 1, written\n")
     );
-    talk.fails("history 9", "write it as");
+    talk.fails("history 9", "`9` is none of 1 to 1");
     talk.fails("pixel 4,0", "outside of the 4x4 picture");
     talk.fails("pixel 0,3 behind", "only front");
     talk.fails("pixel", "write it as");
