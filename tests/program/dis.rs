@@ -26,7 +26,7 @@ fn arrays_in_c_sources() {
     }
     let ran = texcrd_with_input(&["dis", "-", "--shader", "4"], SOURCE);
     assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("dwVS, decl, dwPS"), "{}", ran.err);
+    assert!(ran.err.contains("1 (dwVS), 2 (decl), 3 (dwPS)"), "{}", ran.err);
     // Tokens of several shaders do not go into one file.
     let ran = texcrd_with_input(&["asm", "-", "--hex"], SOURCE);
     assert_eq!(ran.status, 2);

@@ -127,9 +127,9 @@ pub(super) fn quad(
 ) -> Outcome {
     let run = session.run().ok_or("there is no run")?;
     let pixels = pixels(run).ok_or(match run.kind {
-        RunKind::Vertex { .. } => {
-            "this is a vertex; the pixel that it belongs to has a quad: `down` goes there"
-        }
+        RunKind::Vertex {
+            corner: Some(_), ..
+        } => "this is a vertex: only a pixel has a quad, and `down` goes to it",
         _ => "only a pixel of a scene has a quad",
     })?;
     let kind = run.listing.kind();
