@@ -26,9 +26,19 @@ fn arrays_in_c_sources() {
     }
     let ran = texcrd_with_input(&["dis", "-", "--shader", "4"], SOURCE);
     assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("1 (dwVS), 2 (decl), 3 (dwPS)"), "{}", ran.err);
-    // Tokens of several shaders do not go into one file.
-    let ran = texcrd_with_input(&["asm", "-", "--hex"], SOURCE);
+    assert!(
+        ran.err.contains("1 (dwVS), 2 (decl), 3 (dwPS)"),
+        "{}",
+        ran.err
+    );
+    // As text all of them come, one after the other; tokens of several shaders do not go into one file.
+    let ran = texcrd_with_input(&["asm", "-", "--hex", "--unchecked"], SOURCE);
+    assert_eq!(
+        ran.out,
+        "// dwVS\nFFFE0101\n00000000\n0000FFFF\n// decl\n20000001\nFFFFFFFF\n\
+         // dwPS\nFFFF0104\n0000FFFD\n0000FFFF\n"
+    );
+    let ran = texcrd_with_input(&["asm", "-", "-o", "never-written.vso"], SOURCE);
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("--shader"), "{}", ran.err);
     let ran = texcrd_with_input(
