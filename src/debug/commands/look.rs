@@ -1,7 +1,7 @@
 //! `print`, `display`, `list`, `where`: what is looked at where one is.
 
 use super::{Arguments, Console, Display, Fault, Outcome, Reply, place, tell, travel};
-use crate::debug::expression::{Expression, Format};
+use crate::debug::expression::{Expression, Format, Scope};
 use crate::debug::run::Listing;
 use crate::debug::session::Session;
 use crate::debug::text::{Line, Style, Text};
@@ -30,20 +30,26 @@ fn value_line(
 ) -> Result<Line, Fault> {
     let scope = session.scope().ok_or("there is no run")?;
     let value = expression.evaluate(&scope)?;
-    let line = tell::value_line(&expression.to_string(), &value, format);
-    let (listing, kind) = (scope.run.listing, scope.run.listing.kind());
-    if let Some((target, mask)) = expression.target(&listing)
-        && let Some(slot) = target.slot()
-    {
-        let unwritten = mask.without(scope.registers.written(slot));
-        if !unwritten.is_empty() {
-            let components = tell::mask_text(target, unwritten, kind);
-            let name = tell::target_name(target, kind);
-            let words = format!("   (nothing has written {name}{components})");
-            return Ok(line.and(words, Style::Dim));
-        }
+    let note = unwritten(expression, &scope).map_or(String::new(), |name| {
+        format!("   (nothing has written {name})")
+    });
+    Ok(tell::value_line(
+        &expression.to_string(),
+        &value,
+        format,
+        &note,
+    ))
+}
+
+/// The components of a register that nothing has written, if the expression is a register alone and there are some.
+fn unwritten(expression: &Expression, scope: &Scope<'_>) -> Option<String> {
+    let (target, mask) = expression.target_here(scope)?;
+    let unwritten = mask.without(scope.registers.written(target.slot()?));
+    if unwritten.is_empty() {
+        return None;
     }
-    Ok(line)
+    let kind = scope.run.listing.kind();
+    Some(tell::target_name(target, kind) + &tell::mask_text(target, unwritten, kind))
 }
 
 pub(super) fn display(

@@ -422,9 +422,10 @@ pub(super) fn outputs(run: &Run<'_>) -> Vec<Slot> {
     result.into_iter().chain(written).collect()
 }
 
-/// A value in a format, with a field of its colour where that is asked for.
-pub(super) fn value_line(name: &str, value: &Value, format: Format) -> Line {
+/// A value in a format, what is to be noted about it, and a field of its colour where that is asked for.
+pub(super) fn value_line(name: &str, value: &Value, format: Format, note: &str) -> Line {
     let line = Line::from(format!("{name} = ")).plain(value.text(format));
+    let line = line.and(note, Style::Dim);
     match format {
         Format::Colour => line.plain(" ").swatch(value.colour()),
         _ => line,

@@ -319,7 +319,7 @@ fn expressions_are_printed_and_displayed() {
     talk.is("p/q v0.r", "v0.r = gf3 128/255; r200 2048/4096\n");
     talk.is(
         "display/c r0",
-        "  1: r0 = #000000    (nothing has written r0)\n",
+        "  1: r0 = #000000   (nothing has written r0)\n",
     );
     talk.is("display a0.x", "  2: a0.x: ps.1.1 has no a0\n");
     // 0.25 is 63.75/255.
@@ -388,6 +388,12 @@ fn info_tells_what_there_is() {
     talk.fails("up", "no run comes before");
     talk.fails("down", "no run comes behind");
 
+    // Coordinates are there before anything is sampled.
+    let owned = Owned::new("ps.1.1\ntex t0\nmov r0, t0\n");
+    let mut talk = Talk::new(owned.session(&[("t0", &[0.5])]));
+    talk.is("p t0.r", "t0.r = 0.5\n");
+    talk.is("p r0.ra", "r0.ra = 0, 0   (nothing has written r0.ra)\n");
+
     let owned = Owned::new("ps.1.4\ntexld r0, t0\nphase\nmov r0, r0\n");
     let mut talk = Talk::new(owned.session(&[]));
     talk.is("info phase", "   first phase; `phase` stands on line 3\n");
@@ -451,6 +457,11 @@ fn values_are_set_and_both_runs_told_apart() {
         talk.say("finish")
             .ends_with("r0           = 0.75, 0.5, 1, 0.5\n")
     );
+    // Constants of a pixel shader lie in −1…1.
+    assert!(
+        talk.say("set c0 = 2")
+            .contains("c0           = 1, 1, 1, 1   (was 1, 1, 0.5, 1)\n        clamped to −1…1")
+    );
     talk.fails("set r0.rg = 1, 2, 3", "2 components are set to 3 numbers");
     talk.fails("set r0", "write it as");
     talk.fails("set r9 = 1", "ps.1.1 has no r9");
@@ -497,6 +508,7 @@ fn why_names_the_instructions_and_what_they_read() {
 fn everything_can_be_exported() {
     let owned = Owned::new(PAIR);
     let mut talk = Talk::new(owned.session(&PAIR_VALUES));
+    // Of the first write all components are new; the pair writes over them.
     talk.is(
         "export csv",
         "run,moment,line,text,register,components,\
