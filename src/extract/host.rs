@@ -268,7 +268,7 @@ impl Walk<'_> {
         loop {
             let mut ahead = self.scanner.clone();
             let mut next = ahead.next();
-            while matches!(next.kind, Kind::Blank | Kind::NewLine) {
+            while matches!(next.kind, Kind::Blank | Kind::NewLine | Kind::Splice) {
                 next = ahead.next();
             }
             if next.kind != Kind::Text || self.bytes(next.span).first() == Some(&b'\'') {
@@ -285,7 +285,7 @@ impl Walk<'_> {
         if let Some(elements) = &mut self.elements {
             *elements += 1;
         }
-        if !syntax::begins_with_version(&joined.bytes) {
+        if !syntax::is_listing(&joined.bytes) {
             return;
         }
         let name = self.called().map(|name| match element {

@@ -160,7 +160,16 @@ pub fn open(
     if !found.is_empty() || tokens.is_some() {
         return of_host(sources, name, bytes, options, found);
     }
+    let source = syntax::is_source(&bytes);
     let span = sources.add(name, bytes)?.span();
+    if source {
+        return Ok(File {
+            form: Form::Source,
+            span,
+            shaders: Vec::new(),
+            diagnostics: vec![syntax::no_shader(span.at_start())],
+        });
+    }
     let text = Text::Listing {
         text: span,
         preprocessed: false,
@@ -203,6 +212,7 @@ pub fn format(bytes: &[u8]) -> Layout {
             None if syntax::not_text(bytes).is_some() || bytes.len() > SourceMap::MAX_BYTES => {
                 Layout::Nothing("this is no listing")
             }
+            None if syntax::is_source(bytes) => Layout::Nothing("no listing stands in it"),
             None => Layout::Done(syntax::format(bytes)),
         };
     }

@@ -34,7 +34,7 @@ pub use fix::apply_fixes;
 pub use format::format;
 pub(crate) use format::format_block;
 pub use printer::{print, print_instruction};
-pub(crate) use prologue::{begins_with_version, not_text};
+pub(crate) use prologue::{begins_with_version, is_listing, is_source, no_shader, not_text};
 pub use rules::RULES;
 pub use unread::unread;
 

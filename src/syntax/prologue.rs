@@ -7,7 +7,7 @@ use super::parser::Parser;
 use super::report::quote;
 use super::rules;
 use crate::diagnostic::{Diagnostic, Fix, Span};
-use crate::isa::{RegisterFile, ShaderKind, Version};
+use crate::isa::{Opcode, RegisterFile, ShaderKind, Version};
 
 /// Where the version was found.
 pub(super) struct Heading {
@@ -224,6 +224,44 @@ pub(crate) fn begins_with_version(text: &[u8]) -> bool {
         [version, behind, ..] => version.kind == Kind::Version && behind.kind != Kind::End,
         _ => false,
     }
+}
+
+/// Whether a string of a program is a listing. Programs name versions in lists of profiles and in messages, too: what
+/// stands behind the version in its line is an instruction or nothing.
+pub(crate) fn is_listing(text: &[u8]) -> bool {
+    let tokens = lexer::lex_some(text, 2, &mut super::report::Reports::default());
+    let [version, behind, ..] = &tokens[..] else {
+        return false;
+    };
+    let words = text.get(behind.start as usize..behind.end as usize);
+    let word = std::str::from_utf8(words.unwrap_or(&[])).unwrap_or("");
+    let instruction = behind.kind == Kind::Word
+        && Opcode::from_mnemonic(word.split_once('_').map_or(word, |(stem, _)| stem)).is_some();
+    version.kind == Kind::Version && behind.kind != Kind::End && (behind.first || instruction)
+}
+
+/// What is said of a file in which shaders were looked for in vain.
+pub(crate) fn no_shader(at: Span) -> Diagnostic {
+    let message = "this is a program or an effect, and no shader in assembly stands in it";
+    let help = "shaders are looked for in blocks `asm { … }`, in strings that begin with a version, and in arrays of tokens";
+    Diagnostic::error(&rules::NOT_A_LISTING, at, message).with_help(help)
+}
+
+/// Whether a text is an effect or a source of C and no listing: braces stand in it, and no line begins with a version.
+pub(crate) fn is_source(text: &[u8]) -> bool {
+    let mut braces = false;
+    for token in lexer::tokens(text) {
+        let bytes = text.get(token.start as usize..token.end as usize);
+        let bytes = bytes.unwrap_or(&[]);
+        match token.kind {
+            Kind::Version if token.first && names::version(bytes) != VersionText::Unknown => {
+                return false;
+            }
+            Kind::Junk => braces |= bytes.contains(&b'{') || bytes.contains(&b'}'),
+            _ => {}
+        }
+    }
+    braces
 }
 
 /// Says what a text is that is no text.

@@ -315,3 +315,60 @@ const WORDS: [&str; 30] = [
     ")\"",
     "x[] = {0xffff0101, 0x0000ffff};",
 ];
+
+#[test]
+fn strings_that_lines_are_continued_between() {
+    let text = "const char Shader[] =\n\t\"; first a comment\\n\"\\\n\t\"\\n\" \\\n\t// between\n\t\"ps.1.1\\n\"\\\n\"mov r0, v9\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.names(), ["Shader"]);
+    assert_eq!(
+        listing_of(&sources, &file.shaders[0]),
+        "; first a comment\n\nps.1.1\nmov r0, v9\n"
+    );
+    assert_eq!(told(text), [("O1", 6, 10)]);
+}
+
+#[test]
+fn strings_that_only_name_versions() {
+    let text = "\
+        Compile(\"vs_1_1\", \"ps_1_4\\n\");\n\
+        set(\"profiles\", \"vs_1_1 arbvp1 glslv\");\n\
+        test(\"PS_1_4 with two of them\");\n\
+        names = { \"vs_out[10]\", \"ps_1_0 and up\\n\" };\n\
+        real = \"ps.1.1 mov r0, v0\";\n\
+        begun = \"ps.1.1\\nmovv r0, v0\";\n";
+    let (_, file) = opened(text);
+    assert_eq!(file.names(), ["real", "begun"]);
+    assert_eq!(told(text), [("P8", 6, 18)]);
+}
+
+#[test]
+fn files_of_other_languages_without_a_shader() {
+    let texts = [
+        "#include <windows.h>\nint main() { return D3DXCompile(\"vs_1_1\"); }\n",
+        "float4 Main() : POSITION { return 0; }\ntechnique T { pass P { VertexShader = compile vs_1_1 Main(); } }\n",
+    ];
+    for text in texts {
+        assert_eq!(told(text), [("P1", 1, 1)], "{text}");
+        assert!(matches!(format(text.as_bytes()), Layout::Nothing(_)));
+    }
+    // Damaged listings.
+    for text in [
+        "; { in a comment }\nmov r0, v0\n",
+        "{\nps.1.1\nmov r0, v0\n}\n",
+    ] {
+        let (_, file) = opened(text);
+        assert_eq!(
+            (file.form, file.shaders.len()),
+            (Form::Listing, 1),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn macros_that_listings_do_not_have_are_no_errors_of_their_hosts() {
+    let text = "#define trace(args...) f(args)\n#define more(...) g(__VA_ARGS__)\n\
+        pixelshader p = asm { ps.1.1\n mov r0, v0 };\n";
+    assert_eq!(told(text), []);
+}
