@@ -209,10 +209,10 @@ fn what_a_file_is() {
         "mov r0, v0",
         "p5.1.1\nmov r0, v0",
         "char *profile = \"ps_1_1\";",
-        "int main() { asm { mov eax, 1 } }",
     ] {
         assert_eq!(form(listing), Form::Listing, "{listing}");
     }
+    assert_eq!(form("int main() { asm { mov eax, 1 } }"), Form::Source);
     assert_eq!(form("x = asm { mov r0, v0 }"), Form::Effect);
     assert_eq!(form("asm { ; x\n ps.1.1 mov r0, v0 }"), Form::Effect);
     assert_eq!(form("ffff0101 0000ffff"), Form::Tokens(bytecode::Form::Hex));
@@ -371,4 +371,63 @@ fn macros_that_listings_do_not_have_are_no_errors_of_their_hosts() {
     let text = "#define trace(args...) f(args)\n#define more(...) g(__VA_ARGS__)\n\
         pixelshader p = asm { ps.1.1\n mov r0, v0 };\n";
     assert_eq!(told(text), []);
+}
+
+#[test]
+fn directives_between_strings() {
+    let text = "\
+        const char first[] = \"ps.1.1\\n\"\n\
+        #ifdef FOG\n\
+        \"mov r0, v1\\n\"\n\
+        #endif\n\
+        # if 0 // never\n\
+        \"mul r0, r0, v9\\n\"\n\
+        #if 1\n\
+        #endif\n\
+        #else\n\
+        \"mul r0, r0, v0\\n\";\n\
+        #endif\n\
+        const char second[] =\n\
+        #if defined(A)\n\
+        \"ps.1.1\\nmov r0, v0\\n\"\n\
+        #elif B\n\
+        \"ps.1.1\\nmov r0, c1\\n\"\n\
+        #endif\n\
+        ;\n\
+        const char third[] = \"ps.1.1\\nmov r0, v0\\n\"\n\
+        #if A\n\
+        \"mul r0, r0, c0\\n\"\n\
+        #else\n\
+        \"mul r0, r0, c1\\n\"\n\
+        #endif\n\
+        \"mul r0, r0, c2\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.names(), ["first", "second", "second#2", "third"]);
+    let listings: Vec<_> = file
+        .shaders
+        .iter()
+        .map(|s| listing_of(&sources, s))
+        .collect();
+    assert_eq!(
+        listings,
+        [
+            "ps.1.1\nmov r0, v1\nmul r0, r0, v0\n",
+            "ps.1.1\nmov r0, v0\n",
+            "ps.1.1\nmov r0, c1\n",
+            "ps.1.1\nmov r0, v0\nmul r0, r0, c0\nmul r0, r0, c2\n",
+        ]
+    );
+}
+
+#[test]
+fn conditions_within_each_other_take_no_time() {
+    let nested = "\"a\"\n#if 0\n".repeat(20_000);
+    let closed = format!("{nested}{}", "#endif\n".repeat(20_000));
+    let elses = "\"a\"\n#else\n".repeat(20_000);
+    for text in [nested, closed, elses] {
+        let begun = std::time::Instant::now();
+        host::scan(text.as_bytes());
+        // A second where each condition is gone through once, hours where all of them are for each.
+        assert!(begun.elapsed().as_secs() < 60);
+    }
 }
