@@ -17,6 +17,7 @@ mod condition;
 mod define;
 mod directive;
 mod expand;
+mod folders;
 mod output;
 mod resolve;
 mod rules;
@@ -27,6 +28,7 @@ mod token;
 mod tests;
 
 pub use define::{BadDefinition, Definition};
+pub use folders::Folders;
 pub use resolve::{Included, NoFiles, Resolver};
 pub use rules::RULES;
 
