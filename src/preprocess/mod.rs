@@ -20,7 +20,6 @@ mod expand;
 mod folders;
 mod output;
 mod resolve;
-mod rules;
 pub(crate) mod scan;
 mod token;
 
@@ -30,9 +29,9 @@ mod tests;
 pub use define::{BadDefinition, Definition};
 pub use folders::Folders;
 pub use resolve::{Included, NoFiles, Resolver};
-pub use rules::RULES;
 
 use crate::diagnostic::{Diagnostic, Rule, SourceMap, Span};
+use crate::rules::text as rules;
 use define::Macro;
 use directive::Condition;
 use output::Output;
