@@ -1,7 +1,7 @@
 //! What words mean: versions, mnemonics with their suffixes, registers, component letters.
 
 use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
-use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
+use crate::isa::modifier::{SATURATION, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
 use crate::program::Usage;
@@ -122,7 +122,7 @@ pub(super) fn result_suffixes() -> impl Iterator<Item = (ResultSuffix, &'static 
     let shifts = SHIFTS
         .iter()
         .map(|row| (ResultSuffix::Shift(row.shift), row.suffix));
-    shifts.chain([(ResultSuffix::Saturate, SATURATE_SUFFIX)])
+    shifts.chain([(ResultSuffix::Saturate, SATURATION.suffix)])
 }
 
 /// The result suffix of this text, underscore included.
