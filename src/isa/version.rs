@@ -207,6 +207,12 @@ impl VersionSet {
         Self(self.0 | other.0)
     }
 
+    /// The versions that are in both.
+    #[must_use]
+    pub const fn both(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
     /// Whether the version is in the set.
     pub const fn contains(self, version: Version) -> bool {
         self.0 & (1 << version as u8) != 0

@@ -179,7 +179,7 @@ const FOREIGN_MNEMONICS: [(&str, &[&str]); 2] = [
 ];
 
 /// Where an instruction belongs that Direct3D 8 does not have.
-pub(super) fn foreign_mnemonic(stem: &str) -> Option<&'static str> {
+pub(crate) fn foreign_mnemonic(stem: &str) -> Option<&'static str> {
     let has = |names: &[&str]| names.iter().any(|n| n.eq_ignore_ascii_case(stem));
     FOREIGN_MNEMONICS
         .iter()
