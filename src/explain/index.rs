@@ -3,6 +3,7 @@
 use super::page::{Fact, Page};
 use super::subject::Subject;
 use crate::isa::Class;
+use crate::rules::Group;
 
 /// Everything that has a page, by groups.
 pub fn index() -> Page {
@@ -37,6 +38,10 @@ fn group(subject: &Subject) -> &'static str {
         Subject::Result(_) => "results",
         Subject::Notation(_) => "notation",
         Subject::Version(_) => "versions",
-        Subject::Rule(_) => "rules",
+        Subject::Rule(entry) => match entry.group() {
+            Group::Text => "text",
+            Group::Tokens => "tokens",
+            _ => "rules",
+        },
     }
 }

@@ -40,19 +40,30 @@ pub fn instruction(opcode: Opcode, version: Option<Version>) -> Page {
         Fact::new("versions", opcode.versions().to_string()),
         Fact::new("token", format!("0x{:02X}", row.token)),
     ];
-    let same = match &forms[..] {
-        [first, rest @ ..] => rest.iter().all(|form| form.formula == first.formula),
+    // What is the same in all forms is said once.
+    let one = |of: &dyn Fn(&Form) -> String| match &forms[..] {
+        [first, rest @ ..] => rest.iter().all(|form| of(form) == of(first)),
         [] => false,
     };
-    if let Some(form) = forms.first().filter(|_| same) {
-        facts.extend(formula(form));
+    let one_text = one(&|form| written(opcode, form));
+    let one_formula = one(&|form| form.formula.to_string());
+    if let Some(form) = forms.first() {
+        if one_text {
+            facts.push(Fact::new("written", written(opcode, form)));
+        }
+        if one_formula {
+            facts.extend(formula(form));
+        }
     }
     page.facts(facts);
     for form in &forms {
         page.heading(form.versions.to_string());
         page.paragraph(form.note);
-        let mut facts = vec![Fact::new("written", written(opcode, form))];
-        if !same {
+        let mut facts = Vec::new();
+        if !one_text {
+            facts.push(Fact::new("written", written(opcode, form)));
+        }
+        if !one_formula {
             facts.extend(formula(form));
         }
         facts.push(Fact::new("slots", slots(form)));
@@ -68,7 +79,7 @@ pub fn instruction(opcode: Opcode, version: Option<Version>) -> Page {
         && let Some((line, words)) =
             encoding::of_first(version, form.example, |statement| is(statement, opcode))
     {
-        page.heading(format!("Tokens of {line}"));
+        page.heading(format!("Tokens of {line} in {version}"));
         page.facts(words);
     }
     rule::mention(&mut page, row.mnemonic);

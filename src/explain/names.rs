@@ -1,12 +1,12 @@
 //! Which things a name means.
 
 use super::page::Page;
-use super::rule;
 use super::subject::Subject;
 use crate::isa::modifier::ResultSuffix;
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{Notation, Opcode, RegisterFile, SourceModifier, Version};
 use crate::program::Usage;
+use crate::rules;
 use crate::syntax::{distance, foreign_mnemonic};
 use std::fmt;
 
@@ -79,8 +79,8 @@ fn meant(text: &str) -> Vec<Subject> {
     let ways: [fn(&str) -> Vec<Subject>; 9] = [
         |text| version(text).map(Subject::Version).into_iter().collect(),
         |text| {
-            let mut rules = rule::all().filter(|rule| rule.id.eq_ignore_ascii_case(text));
-            rules.next().map(Subject::Rule).into_iter().collect()
+            let found = rules::find(text).map(Subject::Rule);
+            found.into_iter().collect()
         },
         opcodes_of_token,
         mnemonic,

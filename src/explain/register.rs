@@ -2,7 +2,7 @@
 
 use super::page::{Fact, Page};
 use super::{encoding, rule};
-use crate::isa::register::Access;
+use crate::isa::register::{Access, FileForm};
 use crate::isa::{RegisterFile, ShaderKind, Version, VersionSet};
 use crate::program::Usage;
 
@@ -17,26 +17,34 @@ pub fn register(file: RegisterFile, index: Option<u32>, version: Option<Version>
     };
     let mut page = Page::new(name, format!("{} register", row.name));
     let in_file = file.versions();
-    let there = index.map(|index| {
-        let has = Version::all().filter(|version| index < file.count(*version));
-        has.fold(VersionSet::NONE, |all, version| all.and(version.only()))
-    });
-    let told = |versions: VersionSet| match versions == VersionSet::NONE {
-        true => "none".to_string(),
-        false => versions.to_string(),
+    let has = |version: &Version| index.is_none_or(|index| index < file.count(*version));
+    let there = (in_file.iter().filter(has)).fold(VersionSet::NONE, |all, v| all.and(v.only()));
+    let mut facts = vec![Fact::new(
+        "versions",
+        match there == VersionSet::NONE {
+            true => "none has this number".to_string(),
+            false => there.to_string(),
+        },
+    )];
+    // Of a number that no version has the file is told.
+    let told = if there == VersionSet::NONE {
+        in_file
+    } else {
+        there
     };
-    let mut facts = vec![Fact::new("versions", told(there.unwrap_or(in_file)))];
-    let only = version.filter(|version| in_file.contains(*version));
-    let versions = only.map_or(in_file, Version::only);
+    let only = version.filter(|version| told.contains(*version));
+    let versions = only.map_or(told, Version::only);
     let count = |version| match file.count(version) {
         1 => "1".to_string(),
         count => format!(
-            "{count} ({} to {})",
+            "{count}, {} to {}",
             file.register_name(0),
             file.register_name(count - 1)
         ),
     };
-    facts.push(Fact::new("registers", by_version(versions, count)));
+    if file != RegisterFile::RastOut || index.is_none() {
+        facts.push(Fact::new("registers", by_version(versions, count)));
+    }
     let access = |version| {
         let access = match file.access(version) {
             Access::Read => "read",
@@ -49,8 +57,11 @@ pub fn register(file: RegisterFile, index: Option<u32>, version: Option<Version>
     let read = versions.iter().any(|version| file.read_ports(version) > 0);
     if read {
         let ports = |version| file.read_ports(version).to_string();
-        let text = format!("{} in one instruction", by_version(versions, ports));
-        facts.push(Fact::new("read ports", text));
+        let text = by_version(versions, ports);
+        facts.push(Fact::new(
+            "read ports",
+            format!("{text} (how many different ones one instruction reads)"),
+        ));
     }
     if let Some(index) = index
         && file == RegisterFile::Input
@@ -59,23 +70,25 @@ pub fn register(file: RegisterFile, index: Option<u32>, version: Option<Version>
     {
         facts.push(Fact::new("element", element));
     }
+    let number = match index {
+        Some(index) => format!("number {index}"),
+        None => "the number".to_string(),
+    };
     let token = format!(
-        "register type {} in bits 30:28, the number in bits 10:0",
+        "register type {} in bits 30:28, {number} in bits 10:0",
         row.code
     );
     facts.push(Fact::new("token", token));
     page.facts(facts);
-    for form in file
-        .forms(index)
-        .filter(|form| only.is_none_or(|v| form.versions.contains(v)))
-    {
-        page.heading(form.versions.to_string());
+    let of_these = |form: &&FileForm| form.versions.both(versions) != VersionSet::NONE;
+    for form in file.forms(index).filter(of_these) {
+        page.heading(form.versions.both(told).to_string());
         page.paragraph(form.meaning);
         page.facts(vec![
             Fact::new("holds", form.range),
             Fact::new("unwritten", form.before),
         ]);
-        if let Some(shown) = only.or_else(|| form.versions.iter().last()) {
+        if let Some(shown) = only.or_else(|| form.versions.both(told).iter().last()) {
             page.listing(encoding::listing(shown, form.example).trim_end());
         }
     }

@@ -1,10 +1,11 @@
 //! Everything that has a page.
 
 use super::page::Page;
-use crate::diagnostic::Rule;
 use crate::isa::modifier::ResultSuffix;
+use crate::isa::register::RAST_OUT;
 use crate::isa::{Notation, Opcode, RegisterFile, SourceModifier, Version};
 use crate::program::Usage;
+use crate::rules::{self, Entry};
 
 /// Something that has a page.
 #[derive(Clone, Copy, Debug)]
@@ -24,23 +25,22 @@ pub enum Subject {
     /// A version.
     Version(Version),
     /// A rule.
-    Rule(&'static Rule),
+    Rule(&'static Entry),
 }
 
 impl Subject {
-    /// Every subject, registers by files; of the rasterizer's outputs each.
+    /// Every subject, registers by files, the outputs to the rasterizer one by one.
     pub fn all() -> impl Iterator<Item = Subject> {
         let instructions = Opcode::all().map(Subject::Instruction);
         let declarations = Usage::all().map(|(usage, _)| Subject::Declaration(usage));
         let registers = RegisterFile::all().flat_map(|file| {
             let single = match file {
-                RegisterFile::RastOut => 0..crate::isa::register::RAST_OUT.len() as u32,
-                _ => 0..0,
+                RegisterFile::RastOut => RAST_OUT.len() as u32,
+                _ => 0,
             };
-            let whole = [Subject::Register(file, None)];
-            whole
-                .into_iter()
-                .chain(single.map(move |i| Subject::Register(file, Some(i))))
+            let whole = (single == 0).then_some(Subject::Register(file, None));
+            let each = (0..single).map(move |i| Subject::Register(file, Some(i)));
+            whole.into_iter().chain(each)
         });
         let written = |modifier: &SourceModifier| *modifier != SourceModifier::None;
         let modifiers = SourceModifier::all().filter(written).map(Subject::Modifier);
@@ -51,7 +51,7 @@ impl Subject {
             .chain(ResultSuffix::all().map(Subject::Result))
             .chain(Notation::all().map(Subject::Notation))
             .chain(Version::all().map(Subject::Version))
-            .chain(super::rule::all().map(Subject::Rule))
+            .chain(rules::all().map(Subject::Rule))
     }
 
     /// What it is called; [`super::find`] finds it by this name.
@@ -65,7 +65,7 @@ impl Subject {
             Subject::Result(row) => row.suffix.to_string(),
             Subject::Notation(notation) => notation.row().names.first().map_or("", |n| n).into(),
             Subject::Version(version) => version.name().to_string(),
-            Subject::Rule(rule) => rule.id.to_string(),
+            Subject::Rule(entry) => entry.rule.id.to_string(),
         }
     }
 

@@ -19,7 +19,6 @@ mod directive;
 mod expand;
 mod output;
 mod resolve;
-mod rules;
 pub(crate) mod scan;
 mod token;
 
@@ -28,9 +27,9 @@ mod tests;
 
 pub use define::{BadDefinition, Definition};
 pub use resolve::{Included, NoFiles, Resolver};
-pub use rules::RULES;
 
 use crate::diagnostic::{Diagnostic, Rule, SourceMap, Span};
+use crate::rules::text as rules;
 use define::Macro;
 use directive::Condition;
 use output::Output;
