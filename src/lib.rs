@@ -14,6 +14,7 @@ pub mod case;
 pub mod debug;
 pub mod diagnostic;
 pub mod exec;
+pub mod explain;
 pub mod extract;
 pub mod generate;
 #[cfg(feature = "gpu")]
@@ -30,6 +31,7 @@ pub mod policy;
 pub mod preprocess;
 pub mod program;
 pub mod raster;
+pub mod rules;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod semantics;

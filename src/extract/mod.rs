@@ -23,7 +23,9 @@ use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_e
 use crate::listing::{self, Checked};
 use crate::preprocess;
 use crate::preprocess::scan::Language;
+use crate::rules::{model, text as text_rules};
 use crate::syntax;
+use std::fmt;
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,6 +101,36 @@ impl File {
         names
     }
 
+    /// What can be picked: `1 (name), 2 (name)`.
+    pub fn list(&self) -> String {
+        let all = self.names().into_iter().enumerate();
+        let one = |(at, name): (usize, String)| match (at + 1).to_string() {
+            number if number == name => number,
+            number => format!("{number} ({name})"),
+        };
+        all.map(one).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The only shader, or the only one that `wanted` names (see [`Self::find`]).
+    ///
+    /// # Errors
+    /// [`NotOne`] with the shaders that there are.
+    pub fn one(&self, wanted: Option<&str>) -> Result<&Shader, NotOne> {
+        let found = match wanted {
+            Some(wanted) => self.find(wanted),
+            None => (0..self.shaders.len()).collect(),
+        };
+        match (&found[..], wanted) {
+            ([at], _) => self.shaders.get(*at).ok_or(NotOne::Nothing),
+            _ if self.shaders.is_empty() => Err(NotOne::Nothing),
+            ([], Some(wanted)) => Err(NotOne::Unknown {
+                wanted: wanted.to_string(),
+                list: self.list(),
+            }),
+            _ => Err(NotOne::Several { list: self.list() }),
+        }
+    }
+
     /// The numbers of the shaders that `wanted` names: by name, by the number from 1, or by the first parts of their names
     /// (`technique/pass` are all shaders of a pass, `variable` all strings of an array). Letters may be of either case if that leaves no doubt.
     pub fn find(&self, wanted: &str) -> Vec<usize> {
@@ -127,6 +159,44 @@ impl File {
         found
     }
 }
+
+/// Why no shader of a file is meant alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotOne {
+    /// The file has none.
+    Nothing,
+    /// Several are meant.
+    Several {
+        /// Those that the file has.
+        list: String,
+    },
+    /// None is called so.
+    Unknown {
+        /// What was asked for.
+        wanted: String,
+        /// Those that the file has.
+        list: String,
+    },
+}
+
+impl fmt::Display for NotOne {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => write!(f, "there is no shader in this file"),
+            Self::Several { list } => {
+                write!(
+                    f,
+                    "several shaders of this file are meant: pick one of {list}"
+                )
+            }
+            Self::Unknown { wanted, list } => {
+                write!(f, "there is no shader `{wanted}`; it is one of {list}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NotOne {}
 
 /// Adds a file to the sources and finds its shaders.
 ///
@@ -289,6 +359,7 @@ fn of_host(
         Text::Tokens(stream) => stream.place(Span::new(0, 1)).start,
     };
     shaders.sort_by_key(start);
+    leave_out_later(sources, &mut shaders, &mut diagnostics);
     let form = if effect { Form::Effect } else { Form::Source };
     Ok(File {
         form,
@@ -296,6 +367,47 @@ fn of_host(
         shaders,
         diagnostics,
     })
+}
+
+/// Takes away the shaders of later models if there are others: files of the time hold a shader for each generation of
+/// hardware.
+fn leave_out_later(
+    sources: &SourceMap,
+    shaders: &mut Vec<Shader>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let all: Vec<_> = shaders.iter().map(|s| of_later_model(sources, s)).collect();
+    if all.iter().all(Option::is_some) {
+        return;
+    }
+    let mut one = all.iter();
+    shaders.retain(|_| one.next().is_none_or(Option::is_none));
+    diagnostics.extend(all.into_iter().flatten());
+}
+
+/// What is said of a shader that is left out because it is of a later model.
+fn of_later_model(sources: &SourceMap, shader: &Shader) -> Option<Diagnostic> {
+    const HELP: &str = "the others are read; Direct3D 8 has vs.1.0, vs.1.1 and ps.1.0 to ps.1.4";
+    match &shader.text {
+        Text::Listing { text, .. } => {
+            let version = syntax::later_model(sources.bytes(*text))?;
+            let span = Span::new(text.start + version.start, text.start + version.end);
+            let name = sources.text(span);
+            let message = format!("`{name}` begins a shader of a later model, which is left out");
+            Some(Diagnostic::warning(&text_rules::VERSION_UNKNOWN, span, message).with_help(HELP))
+        }
+        Text::Tokens(stream) => {
+            let word = *stream.words.first()?;
+            let later = word >= 0xFFFE_0000 && matches!(word >> 8 & 0xFF, 2..=5);
+            let message =
+                format!("0x{word:08X} begins a shader of a later model, which is left out");
+            let report = Diagnostic::warning(&model::S13, Span::new(0, 1), message);
+            stream
+                .placed(vec![report.with_help(HELP)])
+                .pop()
+                .filter(|_| later)
+        }
+    }
 }
 
 /// Reads a shader of a file: its text, or its tokens by way of their listing, which is added to the sources.

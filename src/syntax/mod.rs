@@ -11,6 +11,7 @@ mod confuse;
 mod declare;
 mod fix;
 mod format;
+mod guess;
 mod index;
 mod lexer;
 mod list;
@@ -22,7 +23,6 @@ mod parser;
 mod printer;
 mod prologue;
 mod report;
-mod rules;
 mod statement;
 mod unread;
 
@@ -33,14 +33,16 @@ pub(crate) use confuse::distance;
 pub use fix::apply_fixes;
 pub use format::format;
 pub(crate) use format::format_block;
+pub(crate) use guess::{is_listing, is_source, later_model, no_shader};
+pub(crate) use names::foreign_mnemonic;
 pub use printer::{print, print_instruction};
-pub(crate) use prologue::{begins_with_version, is_listing, is_source, no_shader, not_text};
-pub use rules::RULES;
+pub(crate) use prologue::{begins_with_version, not_text};
 pub use unread::unread;
 
 use crate::diagnostic::{Diagnostic, SourceFile, Span};
 use crate::isa::Version;
 use crate::program::{Program, Register, Statement};
+use crate::rules::text as rules;
 use parser::Parser;
 use report::Reports;
 

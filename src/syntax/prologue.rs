@@ -7,7 +7,8 @@ use super::parser::Parser;
 use super::report::quote;
 use super::rules;
 use crate::diagnostic::{Diagnostic, Fix, Span};
-use crate::isa::{Opcode, RegisterFile, ShaderKind, Version};
+use crate::isa::{RegisterFile, ShaderKind, Version};
+use crate::rules::model;
 
 /// Where the version was found.
 pub(super) struct Heading {
@@ -95,7 +96,7 @@ impl Parser<'_> {
                 if !*reported {
                     let message = "this stands before the version instruction";
                     let help = "move the version instruction to the front";
-                    self.error(&rules::VERSION_MISSING, self.span(first), message, help);
+                    self.error(&model::S1, self.span(first), message, help);
                 }
                 *reported = true;
                 self.skip_line();
@@ -149,7 +150,7 @@ impl Parser<'_> {
                 false => "the text holds only comments: the version instruction is missing",
             };
             let help = "begin with one of vs.1.0, vs.1.1, ps.1.0 to ps.1.4";
-            self.error(&rules::VERSION_MISSING, span.at_start(), message, help);
+            self.error(&model::S1, span.at_start(), message, help);
             return None;
         }
         let end = self.line_end(1);
@@ -158,7 +159,7 @@ impl Parser<'_> {
             "the version instruction is missing: the listing begins with {}",
             quote(line)
         );
-        let mut report = Diagnostic::error(&rules::VERSION_MISSING, span, message);
+        let mut report = Diagnostic::error(&model::S1, span, message);
         let guess = self.likely_version();
         report = match guess {
             Some(version) => report
@@ -224,44 +225,6 @@ pub(crate) fn begins_with_version(text: &[u8]) -> bool {
         [version, behind, ..] => version.kind == Kind::Version && behind.kind != Kind::End,
         _ => false,
     }
-}
-
-/// Whether a string of a program is a listing. Programs name versions in lists of profiles and in messages, too: what
-/// stands behind the version in its line is an instruction or nothing.
-pub(crate) fn is_listing(text: &[u8]) -> bool {
-    let tokens = lexer::lex_some(text, 2, &mut super::report::Reports::default());
-    let [version, behind, ..] = &tokens[..] else {
-        return false;
-    };
-    let words = text.get(behind.start as usize..behind.end as usize);
-    let word = std::str::from_utf8(words.unwrap_or(&[])).unwrap_or("");
-    let instruction = behind.kind == Kind::Word
-        && Opcode::from_mnemonic(word.split_once('_').map_or(word, |(stem, _)| stem)).is_some();
-    version.kind == Kind::Version && behind.kind != Kind::End && (behind.first || instruction)
-}
-
-/// What is said of a file in which shaders were looked for in vain.
-pub(crate) fn no_shader(at: Span) -> Diagnostic {
-    let message = "this is a program or an effect, and no shader in assembly stands in it";
-    let help = "shaders are looked for in blocks `asm { … }`, in strings that begin with a version, and in arrays of tokens";
-    Diagnostic::error(&rules::NOT_A_LISTING, at, message).with_help(help)
-}
-
-/// Whether a text is an effect or a source of C and no listing: braces stand in it, and no line begins with a version.
-pub(crate) fn is_source(text: &[u8]) -> bool {
-    let mut braces = false;
-    for token in lexer::tokens(text) {
-        let bytes = text.get(token.start as usize..token.end as usize);
-        let bytes = bytes.unwrap_or(&[]);
-        match token.kind {
-            Kind::Version if token.first && names::version(bytes) != VersionText::Unknown => {
-                return false;
-            }
-            Kind::Junk => braces |= bytes.contains(&b'{') || bytes.contains(&b'}'),
-            _ => {}
-        }
-    }
-    braces
 }
 
 /// Says what a text is that is no text.

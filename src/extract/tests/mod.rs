@@ -431,3 +431,27 @@ fn conditions_within_each_other_take_no_time() {
         assert!(begun.elapsed().as_secs() < 60);
     }
 }
+
+#[test]
+fn shaders_of_later_models_beside_others() {
+    let text = "s = \"ps_2_0\\ndcl t0\\n\";\nDWORD v[] = { 0xFFFE0300, 0x0000FFFF };\n\
+        t = \"vs_2_x\\nmov oPos, v0\\n\"; u = \"ps.1.1\\nmov r0, v0\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.names(), ["u"]);
+    let place = |d: &Diagnostic| {
+        let at = sources.locate(d.span).unwrap();
+        (d.rule.id, d.severity, at.line, at.column)
+    };
+    let places: Vec<_> = file.diagnostics.iter().map(place).collect();
+    let warning = crate::diagnostic::Severity::Warning;
+    assert_eq!(
+        places,
+        [
+            ("P3", warning, 1, 6),
+            ("S13", warning, 2, 15),
+            ("P3", warning, 3, 6)
+        ]
+    );
+    // Where there is no other, it is what is wrong with the file.
+    assert_eq!(told("s = \"ps_2_0\\ndcl t0\\n\";\n"), [("P3", 1, 6)]);
+}
