@@ -131,6 +131,11 @@ const REGISTERS: [&str; 17] = [
     "D3DVSDE_NORMAL2",
 ];
 
+/// What the fixed-function pipeline takes a register for, if it has a meaning there.
+pub(super) fn meaning(register: u8) -> Option<&'static str> {
+    REGISTERS.get(usize::from(register)).copied()
+}
+
 /// The number that a name of the header stands for.
 pub(super) fn constant(name: &str) -> Option<u32> {
     let register = REGISTERS.iter().position(|n| *n == name);

@@ -36,6 +36,7 @@ rules! {
     INPUT "D2" "A vertex shader has the input registers 0 to 15.";
     TWICE "D3" "A vertex declaration loads a register once.";
     CONSTANTS "D4" "D3DVSD_CONST loads 1 to 15 constants, none above the 96 that every device has.";
+    FIXED "D5" "Without a vertex shader each register of a declaration keeps its fixed meaning, and D3DVSDE_NORMAL is D3DVSDT_FLOAT3.";
 }
 
 /// How many diagnostics a stream gets before the rest is left out.

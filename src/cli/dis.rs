@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         if arguments.declaration {
             stream.kind = StreamKind::Declaration;
         }
-        let made = bytecode::disassemble(&stream, &mut sources);
+        let made = bytecode::disassemble(&stream, None, &mut sources);
         let made = made.map_err(too_large)?;
         anstream::eprint!("{}", diagnostics::render(&sources, &made.diagnostics));
         match made.listing {

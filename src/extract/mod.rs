@@ -312,7 +312,7 @@ pub fn check(
         }
         Text::Tokens(stream) => stream,
     };
-    let made = bytecode::disassemble(stream, sources)?;
+    let made = bytecode::disassemble(stream, None, sources)?;
     let mut checked = Checked {
         program: None,
         diagnostics: made.diagnostics,

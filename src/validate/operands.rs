@@ -213,7 +213,8 @@ fn check_source(
     {
         return;
     }
-    if is_condition_of_cnd(listing.version, line, i) {
+    // Of a register that cannot be read at all O3 tells more than O15, which a dialect may take.
+    if is_condition_of_cnd(listing.version, line, i) && register.file != RegisterFile::Addr {
         return; // O15 says what stands there.
     }
     if !shape.files.contains(register.file) {
@@ -394,7 +395,9 @@ fn condition(listing: &Listing, line: &Line, report: &mut Report) {
     let is_r0_a = source.register == Register::new(RegisterFile::Temp, 0)
         && source.swizzle == Swizzle::replicate(3)
         && source.modifier == SourceModifier::None;
-    if is_condition_of_cnd(listing.version, line, 0) && !is_r0_a {
+    // O3 refuses a0.
+    let readable = source.register.file != RegisterFile::Addr;
+    if is_condition_of_cnd(listing.version, line, 0) && readable && !is_r0_a {
         report.breach(
             Code::O15,
             source.span,

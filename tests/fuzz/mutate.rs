@@ -20,9 +20,26 @@ pub fn text(random: &mut Random, seeds: &Seeds) -> Vec<u8> {
 
 /// A mutated stream.
 pub fn stream(random: &mut Random, seeds: &Seeds) -> Vec<u32> {
-    let mut words = one_of(random, &seeds.streams).to_vec();
+    let mut words = match random.chance(80) {
+        true => one_of(random, &seeds.streams).to_vec(),
+        false => likely(random),
+    };
     for _ in 0..changes(random) {
         change_stream(random, &mut words, seeds);
+    }
+    words
+}
+
+/// A version and words of which streams are made, so that random ones get far.
+fn likely(random: &mut Random) -> Vec<u32> {
+    let versions: Vec<Version> = Version::all().collect();
+    let mut words: Vec<u32> = random
+        .pick(&versions)
+        .map(Version::token)
+        .into_iter()
+        .collect();
+    for _ in 0..random.below(60) {
+        words.extend(random.pick(&TOKENS));
     }
     words
 }

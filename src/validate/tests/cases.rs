@@ -65,6 +65,7 @@ O2: ps.1.1 | mov {c0}, v0 | mov r0, v0
 O2: vs.1.1 | mov {v0}, c0 | mov oPos, v0
 O2 ok: ps.1.1 | mov r0, v0
 O3: vs.1.1 | mov oPos, v0 | mov r0, {oD0}
+O3: ps.1.3 | mov r0, v0 | cnd r0, {a0.a}, v0, v1
 O3 ok: vs.1.1 | mov oPos, v0 | mov oD0, v0
 O4: vs.1.0 | mov oPos, v0 | mov r0, {c[a0.x]}
 O4: vs.1.0 | mov oPos, v0 | mov {a0.x}, v1.x
