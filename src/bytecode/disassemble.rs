@@ -44,13 +44,7 @@ pub fn disassemble(
             (Some(declaration.print()), reports)
         }
     };
-    let mut diagnostics = stream.placed(reports);
-    // What follows from words that could not be read is not told again.
-    match &stream.fault {
-        Some(fault) if fault.rule.id == super::rules::TEXT.id => diagnostics = vec![fault.clone()],
-        Some(fault) if !any_error(&diagnostics) => diagnostics.push(fault.clone()),
-        _ => {}
-    }
+    let diagnostics = stream.with_fault(reports);
     let listing = text.filter(|_| !any_error(&diagnostics));
     let mut program = None;
     if let Some(text) = listing

@@ -3,7 +3,7 @@
 use super::literal::{self, Beginning, Words};
 use super::rules;
 use super::{Declaration, HEX_LINE, MOST_TOKENS, to_hex};
-use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge};
+use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};
 use crate::isa::Version;
 
 /// How tokens are written in a file.
@@ -213,5 +213,23 @@ impl Stream {
             diagnostic
         };
         diagnostics.into_iter().map(place).collect()
+    }
+
+    /// What is said of its tokens, in its places, with what could not be read as tokens.
+    pub(super) fn with_fault(&self, reports: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        let mut diagnostics = self.placed(reports);
+        match &self.fault {
+            // What follows from words that could not be read is not told again.
+            Some(fault) if fault.rule.id == rules::TEXT.id => diagnostics = vec![fault.clone()],
+            Some(fault) if !any_error(&diagnostics) => diagnostics.push(fault.clone()),
+            _ => {}
+        }
+        diagnostics
+    }
+
+    /// The stream as a vertex declaration, or as a piece of one, with everything that is wrong with it, in its places.
+    pub fn decode_fragment(&self) -> (Declaration, Vec<Diagnostic>) {
+        let (declaration, reports) = Declaration::decode_fragment(&self.words);
+        (declaration, self.with_fault(reports))
     }
 }

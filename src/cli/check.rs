@@ -119,10 +119,7 @@ fn fix(arguments: &Arguments, path: &str, original: Vec<u8>) -> Result<Vec<u8>, 
 
 fn report(arguments: &Arguments, sources: &SourceMap, name: &str, found: &[Diagnostic]) -> Outcome {
     if arguments.format == Format::Json {
-        for diagnostic in found {
-            print_json(&diagnostics::to_json(sources, diagnostic))?;
-        }
-        return Ok(());
+        return diagnostics::tell(Format::Json, sources, found);
     }
     let mut text = diagnostics::render(sources, found);
     let summary = diagnostics::summary(found);

@@ -7,10 +7,11 @@ use super::error::{Problems, rules};
 use super::files::Files;
 use super::resolve::Resolver;
 use super::section::{At, Section};
-use crate::diagnostic::{Diagnostic, SourceFile, Span};
+use crate::diagnostic::{Diagnostic, Rule, Span, TooLarge, any_error};
+use crate::extract;
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Options, lower};
-use crate::listing;
+use crate::listing::{self, Checked};
 use crate::policy::Dialect;
 use crate::preprocess::{self, Included};
 use crate::program::Program;
@@ -152,25 +153,22 @@ fn program(
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
-    let file = files.sources.add(name, bytes).map(SourceFile::span);
-    let checked = match file {
-        Ok(file) => {
-            let resolver = Includes {
-                resolver: files.resolver,
-                listing,
-            };
-            let options = listing::Options {
-                dialect,
-                preprocess: preprocess::Options {
-                    definitions: &[],
-                    resolver: &resolver,
-                },
-                ..Default::default()
-            };
-            listing::read(&mut files.sources, file, &options)
-        }
-        Err(error) => {
-            problems.error(&rules::LIMIT, span, error.to_string());
+    let resolver = Includes {
+        resolver: files.resolver,
+        listing,
+    };
+    let options = listing::Options {
+        dialect,
+        preprocess: preprocess::Options {
+            definitions: &[],
+            resolver: &resolver,
+        },
+        ..Default::default()
+    };
+    let checked = match only_shader(&name, bytes, &options, files) {
+        Ok(checked) => checked,
+        Err((rule, message)) => {
+            problems.error(rule, span, message);
             return None;
         }
     };
@@ -179,6 +177,33 @@ fn program(
         problems.push(diagnostic);
     }
     accepted
+}
+
+/// Reads and judges the one shader of a file: a listing, tokens, or an effect or source of C with one shader in it.
+fn only_shader(
+    name: &str,
+    bytes: Vec<u8>,
+    options: &listing::Options<'_>,
+    files: &mut Files<'_>,
+) -> Result<Checked, (&'static Rule, String)> {
+    let told = |error: TooLarge| (&rules::LIMIT, error.to_string());
+    let sources = &mut files.sources;
+    let file = extract::open(sources, name, bytes, &options.preprocess).map_err(told)?;
+    let [shader] = &file.shaders[..] else {
+        let names = file.names().join(", ");
+        let message = match file.shaders.len() {
+            0 => format!("{name}: there is no shader in this file"),
+            _ => format!("{name}: one shader is meant, and this file has several: {names}"),
+        };
+        return Err((&rules::SHADER, message));
+    };
+    let mut checked = extract::check(sources, shader, options).map_err(told)?;
+    checked.diagnostics.splice(0..0, file.diagnostics);
+    if checked.program.is_none() && !any_error(&checked.diagnostics) {
+        let message = format!("{name}: this is a vertex declaration, no shader");
+        return Err((&rules::SHADER, message));
+    }
+    Ok(checked)
 }
 
 /// Lowers a listing for the stages of a draw.

@@ -12,6 +12,7 @@ mod hosts;
 mod pictures;
 mod run;
 mod test;
+mod tokens;
 mod translate;
 
 use std::io::Write;
