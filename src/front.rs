@@ -20,7 +20,7 @@ use std::fmt;
 ///
 /// ```
 /// let report = texcrd::assemble("ps.1.1\nmov r0, t9").unwrap_err();
-/// assert!(report.to_string().starts_with("2:9: error[O2]: "));
+/// assert!(report.to_string().starts_with("2:9: error[O1]: "));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Report {
