@@ -201,3 +201,67 @@ fn accepted(checked: Checked, sources: SourceMap) -> Result<(Program, SourceMap)
         }),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What was wrong, as it is printed.
+    fn told<T: fmt::Debug>(result: Result<T, Report>) -> String {
+        result.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn everything_is_told_with_its_place() {
+        let report = assemble("ps.1.1\nmov r0, t9\n#define T t8\nmov r1, T").unwrap_err();
+        let text = report.to_string();
+        let places: Vec<_> = (text.lines())
+            .filter(|line| !line.starts_with(' '))
+            .map(|line| line.split(' ').next().unwrap())
+            .collect();
+        // The second stands where the macro is used.
+        assert_eq!(places, ["2:9:", "4:9:"], "{text}");
+        assert_eq!(report.sources().files()[0].name(), "listing");
+    }
+
+    #[test]
+    fn warnings_do_not_refuse() {
+        // A def behind an instruction is S2, a warning in Direct3D 8 and an error in Direct3D 9.
+        let text = "ps.1.1\ntex t0\ndef c0, 1, 1, 1, 1\nmul r0, t0, c0";
+        let report = validate(text, Dialect::D3d8);
+        assert!(report.is_accepted());
+        assert_eq!(report.diagnostics()[0].rule.id, "S2");
+        assert!(!validate(text, Dialect::D3d9).is_accepted());
+        // Version, tex with its operand, def with six words behind it in all, mul with three, end.
+        assert_eq!(assemble(text).unwrap().len(), 1 + 2 + 6 + 4 + 1);
+    }
+
+    #[test]
+    fn only_the_text_counts_for_parse() {
+        // r9 does not exist, which is none of the grammar's business.
+        let program = parse("ps.1.1\nmov r0, r9").unwrap();
+        assert_eq!(program.instructions().count(), 1);
+        assert!(told(parse("ps.1.1\nfoo r0")).starts_with("2:1: error[P8]"));
+        assert!(told(parse("")).contains("error[P2]"));
+    }
+
+    #[test]
+    fn broken_streams() {
+        assert!(told(disassemble(&[])).starts_with("error[K1]: token 0"));
+        let text = told(disassemble(&[0xFFFF_0101, 0x0000_0001, 0x8000_0000]));
+        assert!(text.starts_with("error[K8]: token 2 (byte 8)"), "{text}");
+        let long = vec![0; bytecode::MOST_TOKENS * 4];
+        assert!(told(disassemble(&long)).contains("error[K1]"));
+        let declaration = disassemble(&[0x2000_0001, 0xFFFF_FFFF]).unwrap();
+        assert_eq!(declaration, "D3DVSD_STREAM(1),\nD3DVSD_END()\n");
+    }
+
+    #[test]
+    fn a_text_that_is_too_long() {
+        let text = told(parse(vec![b' '; SourceMap::MAX_BYTES + 1]));
+        assert!(
+            text.starts_with("error[P1]: listing: 4194305 bytes"),
+            "{text}"
+        );
+    }
+}

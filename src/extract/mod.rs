@@ -200,9 +200,10 @@ pub fn format(bytes: &[u8]) -> Layout {
     if found.is_empty() {
         return match tokens {
             Some(_) => Layout::Nothing("these are tokens; `dis` makes a listing of them"),
-            None if syntax::not_text(bytes).is_some() || bytes.len() > SourceMap::MAX_BYTES => {
-                Layout::Nothing("this is no listing")
+            None if bytes.len() > SourceMap::MAX_BYTES => {
+                Layout::Nothing("this is longer than a listing can be")
             }
+            None if syntax::not_text(bytes).is_some() => Layout::Nothing("this is no listing"),
             None => Layout::Done(syntax::format(bytes)),
         };
     }
