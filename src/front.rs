@@ -242,16 +242,16 @@ mod tests {
         let program = parse("ps.1.1\nmov r0, r9").unwrap();
         assert_eq!(program.instructions().count(), 1);
         assert!(told(parse("ps.1.1\nfoo r0")).starts_with("2:1: error[P8]"));
-        assert!(told(parse("")).contains("error[P2]"));
+        assert!(told(parse("")).contains("error[S1]"));
     }
 
     #[test]
     fn broken_streams() {
-        assert!(told(disassemble(&[])).starts_with("error[K1]: token 0"));
+        assert!(told(disassemble(&[])).starts_with("error[S13]: token 0"));
         let text = told(disassemble(&[0xFFFF_0101, 0x0000_0001, 0x8000_0000]));
         assert!(text.starts_with("error[K8]: token 2 (byte 8)"), "{text}");
         let long = vec![0; bytecode::MOST_TOKENS * 4];
-        assert!(told(disassemble(&long)).contains("error[K1]"));
+        assert!(told(disassemble(&long)).contains("error[S13]"));
         let declaration = disassemble(&[0x2000_0001, 0xFFFF_FFFF]).unwrap();
         assert_eq!(declaration, "D3DVSD_STREAM(1),\nD3DVSD_END()\n");
     }

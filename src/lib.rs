@@ -22,6 +22,7 @@ pub mod case;
 pub mod debug;
 pub mod diagnostic;
 pub mod exec;
+pub mod explain;
 pub mod extract;
 mod front;
 pub mod generate;
@@ -39,6 +40,7 @@ pub mod policy;
 pub mod preprocess;
 pub mod program;
 pub mod raster;
+pub mod rules;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod semantics;

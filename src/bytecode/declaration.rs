@@ -1,10 +1,11 @@
 //! Vertex declarations: arrays of `D3DVSD_` tokens, which say where the elements of a vertex come from.
 
 use super::macros::{self, DATA_TYPES, Macro, Misfit};
-use super::rules::{self, Reports, tokens};
-use super::{MOST_ITEMS, MOST_TOKENS};
+use super::report::{Reports, tokens};
+use super::{MOST_ITEMS, MOST_TOKENS, rules};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::isa::register::VERTEX_CONSTANTS;
+use crate::rules::model;
 
 /// A vertex declaration, without the token that ends it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -216,7 +217,7 @@ impl Declaration {
                     break;
                 }
                 let message = "the declaration ends without D3DVSD_END, 0xFFFFFFFF";
-                reports.error(&rules::UNENDED, at, message, "");
+                reports.error(&model::D1, at, message, "");
                 break;
             };
             if declaration.elements.len() == MOST_ITEMS {
@@ -254,7 +255,7 @@ impl Declaration {
                     of.text(&arguments),
                     words.len() - at - 1
                 );
-                reports.error(&rules::UNENDED, at, &message, "");
+                reports.error(&model::D1, at, &message, "");
                 break;
             };
             declaration.elements.push(Element {
@@ -312,7 +313,7 @@ impl Declaration {
         self.judge(|element| match element.kind {
             ElementKind::Reg { register, .. } if register > 15 => {
                 let message = format!("a vertex shader has no register v{register}");
-                Some(Diagnostic::error(&rules::INPUT, element.span, message))
+                Some(Diagnostic::error(&model::D2, element.span, message))
             }
             _ => None,
         })
@@ -323,7 +324,7 @@ impl Declaration {
     pub fn check_fixed_function(&self) -> Vec<Diagnostic> {
         self.judge(|element| {
             let (message, help) = misuse(&element.kind)?;
-            let report = Diagnostic::warning(&rules::FIXED, element.span, message);
+            let report = Diagnostic::warning(&model::D5, element.span, message);
             Some(report.with_help(help))
         })
     }
@@ -341,7 +342,7 @@ impl Declaration {
                     let twice = loaded.is_some_and(|loaded| std::mem::replace(loaded, true));
                     if twice && odd.is_none() {
                         let message = format!("v{register} is loaded a second time");
-                        let report = Diagnostic::warning(&rules::TWICE, *span, message);
+                        let report = Diagnostic::warning(&model::D3, *span, message);
                         found.push(report.with_help("the last one wins"));
                     }
                 }
@@ -352,7 +353,7 @@ impl Declaration {
                             true => "no constant is loaded".to_string(),
                             false => format!("c{} is above c{}", end - 1, VERTEX_CONSTANTS - 1),
                         };
-                        found.push(Diagnostic::error(&rules::CONSTANTS, *span, message));
+                        found.push(Diagnostic::error(&model::D4, *span, message));
                     }
                 }
                 _ => {}
