@@ -11,6 +11,8 @@ pub(super) struct Folders<'a> {
     /// The file that is read; `-` is standard input, which lies in the current folder.
     pub(super) file: &'a str,
     pub(super) folders: &'a [PathBuf],
+    /// A file that somebody has open and may have changed: it goes before the one on disk.
+    pub(super) open: &'a dyn Fn(&Path) -> Option<Vec<u8>>,
 }
 
 impl Resolver for Folders<'_> {
@@ -24,12 +26,24 @@ impl Resolver for Folders<'_> {
         };
         // Listings were written on Windows.
         let path = path.replace('\\', "/");
-        let found = folders.iter().find_map(|folder| place(folder, &path));
-        let place = found.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
-        // One byte more than the sources take, so that it is seen to be too long.
-        let most = SourceMap::MAX_BYTES as u64 + 1;
-        let mut bytes = Vec::new();
-        fs::File::open(&place)?.take(most).read_to_end(&mut bytes)?;
+        let missing = || io::Error::from(io::ErrorKind::NotFound);
+        let found = folders.iter().find_map(|folder| {
+            let opened = folder.join(&path);
+            match (self.open)(&opened) {
+                Some(bytes) => Some((opened, Some(bytes))),
+                None => Some((place(folder, &path)?, None)),
+            }
+        });
+        let (place, bytes) = match found.ok_or_else(missing)? {
+            (place, Some(bytes)) => (place, bytes),
+            (place, None) => {
+                // One byte more than the sources take, so that it is seen to be too long.
+                let most = SourceMap::MAX_BYTES as u64 + 1;
+                let mut bytes = Vec::new();
+                fs::File::open(&place)?.take(most).read_to_end(&mut bytes)?;
+                (place, bytes)
+            }
+        };
         let name = place.display().to_string();
         Ok(Included {
             path: name.clone(),

@@ -161,6 +161,7 @@ impl Reading {
         Folders {
             file: path,
             folders: &self.include,
+            open: &|_| None,
         }
     }
 }
