@@ -4,7 +4,7 @@ use super::analysis::Analysis;
 use super::documents::Document;
 use super::message::{Refusal, read};
 use super::text::{Position, Range as Places};
-use super::{State, actions, complete, hints, hover, navigate, outline};
+use super::{State, actions, complete, hints, hover, navigate, outline, signature};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::ops::Range;
@@ -90,7 +90,7 @@ impl State {
             }
             "textDocument/signatureHelp" => {
                 let view = self.view(params)?;
-                Ok(complete::signature(
+                Ok(signature::signature(
                     &view.analysis,
                     view.document,
                     view.offset()?,
