@@ -1,10 +1,8 @@
 //! `lsp`: the language server, for editors.
 
-use super::includes::Folders;
 use super::{Failure, Outcome};
-use crate::servers::lsp::{self, Search, Tools};
+use crate::servers::lsp;
 use std::io;
-use texcrd::preprocess::{Included, Resolver};
 
 /// Serves an editor: the language server protocol on standard input and output.
 ///
@@ -18,7 +16,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(_: &Arguments) -> Outcome {
     let input = io::BufReader::new(io::stdin());
-    match lsp::serve(input, io::stdout().lock(), Tools { include }) {
+    match lsp::serve(input, io::stdout().lock()) {
         Ok(true) => Ok(()),
         // The protocol wants 1 where nobody has said `shutdown`.
         Ok(false) => Err(Failure::Rejected),
@@ -26,18 +24,4 @@ pub(super) fn run(_: &Arguments) -> Outcome {
         Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(e) => Err(Failure::Io(format!("standard output: {e}"))),
     }
-}
-
-fn include(
-    search: &Search<'_>,
-    path: &str,
-    angled: bool,
-    from: Option<&str>,
-) -> io::Result<Included> {
-    let folders = Folders {
-        file: search.file,
-        folders: search.folders,
-        open: search.open,
-    };
-    folders.include(path, angled, from)
 }

@@ -20,7 +20,6 @@ mod fmt;
 mod fuzz_match;
 mod generate;
 mod given;
-mod includes;
 #[cfg(feature = "servers")]
 mod lsp;
 mod reflect;

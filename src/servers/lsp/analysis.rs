@@ -1,6 +1,5 @@
 //! What is known of a document: its shaders, what is wrong with them, and where everything stands.
 
-use super::Tools;
 use super::documents::{Document, Documents};
 use super::settings::Settings;
 use super::text::{Encoding, Lines, Range as Places};
@@ -14,7 +13,7 @@ use std::rc::Rc;
 use texcrd::diagnostic::{Diagnostic, SourceFile, SourceMap, Span};
 use texcrd::extract::{self, Form, Text};
 use texcrd::listing;
-use texcrd::preprocess::{self, Included, Resolver};
+use texcrd::preprocess::{self, Folders, Included, Resolver};
 use texcrd::program::Program;
 use texcrd::validate::{self, Use};
 
@@ -25,23 +24,12 @@ const LISTINGS: [&str; 6] = ["vsh", "psh", "vsa", "psa", "nvv", "nvp"];
 /// Languages that clients give to files of which they know nothing.
 const LOOSE: [&str; 5] = ["", "text", "plaintext", "asm", "asm_x86_64"];
 
-/// Where a file that a listing includes is looked for.
-pub(crate) struct Search<'a> {
-    /// The document.
-    pub(crate) file: &'a str,
-    /// As `-I` gives them.
-    pub(crate) folders: &'a [PathBuf],
-    /// The text of a file that the client has open.
-    pub(crate) open: &'a dyn Fn(&Path) -> Option<Vec<u8>>,
-}
-
 /// What documents are looked at with.
 pub(super) struct World<'a> {
     pub documents: &'a Documents,
     pub settings: &'a Settings,
     /// The folder of the workspace.
     pub folder: Option<&'a Path>,
-    pub tools: Tools,
 }
 
 /// A shader of a document.
@@ -107,12 +95,11 @@ impl Resolver for Files<'_> {
             let document = self.world.documents.at(path)?;
             Some(document.text.clone().into_bytes())
         };
-        let search = Search {
+        let folders = Folders {
             file: self.file,
             folders: &self.folders,
-            open: &open,
         };
-        let found = (self.world.tools.include)(&search, path, angled, from)?;
+        let found = folders.include_beside(path, angled, from, &open)?;
         let place = uri::plain(Path::new(&found.path));
         let open = self.world.documents.at(&place);
         let address = open.map_or_else(|| uri::of_path(&place), |document| document.uri.clone());

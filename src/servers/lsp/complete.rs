@@ -501,7 +501,7 @@ impl Place<'_> {
         masks.into_iter().map(one).collect()
     }
 
-    /// Selectors of a source, as the rules M9 and M10 have them for pixel shaders; swizzles of a vertex shader.
+    /// Selectors of a source, as `validate` has them for pixel shaders; swizzles of a vertex shader.
     fn selectors(&self, statement: &Statement, form: &Form, shape: &SourceShape) -> Vec<Item> {
         let all = letters(self.version.kind());
         let [_, _, blue, alpha] = all.map(String::from);

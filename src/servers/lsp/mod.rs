@@ -34,8 +34,6 @@ mod text;
 mod uri;
 mod words;
 
-pub(crate) use analysis::Search;
-
 use analysis::{Analysis, World};
 use client::Client;
 use documents::{Change, Documents, Opened};
@@ -49,15 +47,6 @@ use std::io::{self, BufRead, Write};
 use std::rc::Rc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::Duration;
-use texcrd::preprocess::Included;
-
-/// What the program has already that a server needs.
-#[derive(Clone, Copy)]
-pub(crate) struct Tools {
-    /// Gives an included file: what is looked for how, the path as it is written, whether it stands in `<` `>`, and which
-    /// included file includes it.
-    pub(crate) include: fn(&Search<'_>, &str, bool, Option<&str>) -> io::Result<Included>,
-}
 
 /// How much may wait to be handled, in bytes of messages, before the stream is left waiting.
 const MOST_WAITING: usize = 32 << 20;
@@ -70,14 +59,10 @@ const A_MOMENT: Duration = Duration::from_millis(300);
 ///
 /// # Errors
 /// What the output says.
-pub(crate) fn serve(
-    input: impl BufRead + Send + 'static,
-    output: impl Write,
-    tools: Tools,
-) -> io::Result<bool> {
+pub(crate) fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Result<bool> {
     let mut server = Server {
         output: Outgoing::new(output),
-        state: State::new(tools),
+        state: State::new(),
         phase: Phase::Silent,
         configuration: None,
         published: HashMap::new(),
@@ -197,19 +182,17 @@ pub(super) struct State {
     client: Client,
     settings: Settings,
     documents: Documents,
-    tools: Tools,
     analyses: RefCell<HashMap<String, Rc<Analysis>>>,
     /// Documents of which has to be told what is wrong with them.
     stale: BTreeSet<String>,
 }
 
 impl State {
-    fn new(tools: Tools) -> Self {
+    fn new() -> Self {
         Self {
             client: Client::default(),
             settings: Settings::default(),
             documents: Documents::default(),
-            tools,
             analyses: RefCell::default(),
             stale: BTreeSet::new(),
         }
@@ -220,7 +203,6 @@ impl State {
             documents: &self.documents,
             settings: &self.settings,
             folder: self.client.folder.as_deref(),
-            tools: self.tools,
         }
     }
 

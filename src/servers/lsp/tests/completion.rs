@@ -171,7 +171,14 @@ fn directives_and_macros() {
     assert_eq!(labels(&format!("{text}#ifdef |")), ["FOG", "F"]);
     let sources = labels(&format!("{text}mov r0, |"));
     assert!(sources.contains(&"FOG".to_string()));
-    assert!(labels("#include \"names.inc\"\nps.1.1\n|").contains(&"SCALE".to_string()));
+    let folder = Folder::new(&[("names.inc", b"#define SCALE(a) mul r0, r0, a\n")]);
+    let mut client = Client::new();
+    client.document = folder.uri("a.psh");
+    let document = client.document.clone();
+    client.open(&document, "d3d8asm", "#include \"names.inc\"\nps.1.1\n");
+    let found = client.at("completion", 2, 0);
+    let items = found["items"].as_array().unwrap();
+    assert!(items.iter().any(|item| item["label"] == "SCALE"));
 }
 
 #[test]

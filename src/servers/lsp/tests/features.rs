@@ -113,39 +113,43 @@ fn diagnostics_in_strings_and_effects_stand_where_they_are_written() {
 
 #[test]
 fn included_files_are_those_that_are_open_before_those_on_disk() {
+    let text = b"#define FROM_DISK v1\n; \xe4\xe4\nmov r0, r1 ; never written\n";
+    let folder = Folder::new(&[("disk.inc", text)]);
     let mut client = Client::new();
+    client.document = folder.uri("a.psh");
+    let document = &client.document.clone();
     client.open(
-        DOCUMENT,
+        document,
         "d3d8asm",
         "ps.1.1\n#include \"disk.inc\"\nmov r0, FROM_DISK\n",
     );
     // What is wrong in the file is told there, bytes of other encodings counted as one character.
-    let file = "file:///shaders/disk.inc";
+    let file = &folder.uri("disk.inc");
     assert_eq!(told(&client.diagnostics(file)), ["I1 1 2:8-2:10"]);
-    assert!(client.diagnostics(DOCUMENT).is_empty());
+    assert!(client.diagnostics(document).is_empty());
     client.open(file, "d3d8asm", "#define FROM_DISK r7\n");
     // The file is open now, and has another fault; it is no shader by itself.
-    let found = client.diagnostics(DOCUMENT);
+    let found = client.diagnostics(document);
     assert_eq!(told(&found), ["O1 1 2:8-2:17"]);
     let related = &found[0]["relatedInformation"][0];
-    assert_eq!(related["location"]["uri"], file);
+    assert_eq!(related["location"]["uri"], *file);
     assert_eq!(range(&related["location"]["range"]), "0:18-0:20");
     assert!(client.diagnostics(file).is_empty());
     client.change(file, json!([{ "text": "#define FROM_DISK v0\n" }]));
     // The document has not changed, what it includes has.
-    assert!(client.diagnostics(DOCUMENT).is_empty());
+    assert!(client.diagnostics(document).is_empty());
     let include = client.at("definition", 1, 12);
-    assert_eq!(include[0]["uri"], file);
+    assert_eq!(include[0]["uri"], *file);
     let defined = client.at("definition", 2, 10);
     assert_eq!(
         (&defined[0]["uri"], range(&defined[0]["range"])),
         (&json!(file), "0:8-0:17".to_string())
     );
     client.change(
-        DOCUMENT,
+        document,
         json!([{ "text": "ps.1.1\n#include \"none.inc\"\nmov r0, v0\n" }]),
     );
-    assert_eq!(told(&client.diagnostics(DOCUMENT)).len(), 1);
+    assert_eq!(told(&client.diagnostics(document)).len(), 1);
     assert!(client.leave());
 }
 

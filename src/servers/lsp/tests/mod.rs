@@ -5,13 +5,12 @@ mod features;
 mod lifecycle;
 mod robust;
 
-use super::{Search, Tools, serve};
+use super::{serve, uri};
 use crate::servers::frame;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, PipeReader, PipeWriter};
 use std::thread::JoinHandle;
-use texcrd::preprocess::Included;
 
 /// The address of the document that most tests have open.
 const DOCUMENT: &str = "file:///shaders/a.psh";
@@ -23,28 +22,10 @@ struct Client {
     server: JoinHandle<io::Result<bool>>,
     requests: i64,
     versions: BTreeMap<String, i64>,
+    /// The document that [`Client::at`] and [`Client::of`] ask about.
+    document: String,
     /// What the server said of its own accord.
     heard: Vec<Value>,
-}
-
-/// Files that can be included, beside those that are open.
-fn include(search: &Search<'_>, path: &str, _: bool, from: Option<&str>) -> io::Result<Included> {
-    let folder = std::path::Path::new(from.unwrap_or(search.file)).parent();
-    let place = folder.unwrap_or(std::path::Path::new("")).join(path);
-    let on_disk = || match path {
-        "disk.inc" => {
-            Some(b"#define FROM_DISK v1\n; \xe4\xe4\nmov r0, r1 ; never written\n".to_vec())
-        }
-        "names.inc" => Some(b"#define TINT c0\n#define SCALE(a) mul r0, r0, a\n".to_vec()),
-        _ => None,
-    };
-    let bytes = (search.open)(&place).or_else(on_disk);
-    let name = place.display().to_string();
-    Ok(Included {
-        path: name.clone(),
-        name,
-        bytes: bytes.ok_or(io::ErrorKind::NotFound)?,
-    })
 }
 
 /// What most clients can do.
@@ -66,15 +47,14 @@ impl Client {
     fn silent() -> Self {
         let (from_client, input) = io::pipe().unwrap();
         let (output, to_client) = io::pipe().unwrap();
-        let server = std::thread::spawn(move || {
-            serve(BufReader::new(from_client), to_client, Tools { include })
-        });
+        let server = std::thread::spawn(move || serve(BufReader::new(from_client), to_client));
         Self {
             input: Some(input),
             output: BufReader::new(output),
             server,
             requests: 0,
             versions: BTreeMap::new(),
+            document: DOCUMENT.to_string(),
             heard: Vec::new(),
         }
     }
@@ -185,19 +165,19 @@ impl Client {
         }
     }
 
-    /// Asks about a place of [`DOCUMENT`].
+    /// Asks about a place of the document.
     fn at(&mut self, method: &str, line: u32, character: u32) -> Value {
         let params = json!({
-            "textDocument": { "uri": DOCUMENT },
+            "textDocument": { "uri": self.document },
             "position": { "line": line, "character": character },
             "context": { "includeDeclaration": true },
         });
         self.ask(&format!("textDocument/{method}"), params)
     }
 
-    /// Asks about all of [`DOCUMENT`].
+    /// Asks about all of the document.
     fn of(&mut self, method: &str) -> Value {
-        let params = json!({ "textDocument": { "uri": DOCUMENT }, "options": {} });
+        let params = json!({ "textDocument": { "uri": self.document }, "options": {} });
         self.ask(&format!("textDocument/{method}"), params)
     }
 
@@ -255,4 +235,32 @@ fn applied(text: &str, edits: &Value) -> String {
         text.replace_range(start..end, edit["newText"].as_str().unwrap());
     }
     text
+}
+
+/// A folder with files, gone when it is dropped.
+struct Folder(std::path::PathBuf);
+
+impl Folder {
+    fn new(files: &[(&str, &[u8])]) -> Self {
+        static NUMBER: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(0);
+        let number = NUMBER.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        let name = format!("texcrd-lsp-{}-{number}", std::process::id());
+        let folder = Self(std::env::temp_dir().join(name));
+        std::fs::create_dir_all(&folder.0).unwrap();
+        for (name, text) in files {
+            std::fs::write(folder.0.join(name), text).unwrap();
+        }
+        folder
+    }
+
+    /// The address of a file in it.
+    fn uri(&self, name: &str) -> String {
+        uri::of_path(&self.0.join(name))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
 }

@@ -1,22 +1,40 @@
 //! Files that listings include, on disk.
 
+use super::resolve::{Included, Resolver};
+use crate::diagnostic::SourceMap;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use texcrd::diagnostic::SourceMap;
-use texcrd::preprocess::{Included, Resolver};
 
-/// Looks for included files beside the file that includes them and in the folders of `-I`, as compilers do.
-pub(super) struct Folders<'a> {
-    /// The file that is read; `-` is standard input, which lies in the current folder.
-    pub(super) file: &'a str,
-    pub(super) folders: &'a [PathBuf],
-    /// A file that somebody has open and may have changed: it goes before the one on disk.
-    pub(super) open: &'a dyn Fn(&Path) -> Option<Vec<u8>>,
+/// Looks for included files on disk: beside the file that includes them and in further folders, as compilers do. In angle
+/// brackets the folders come first.
+#[derive(Clone, Copy, Debug)]
+pub struct Folders<'a> {
+    /// The path of the file that is read; `-` is standard input, which lies in the current folder.
+    pub file: &'a str,
+    /// The further folders, those of `-I`, in their order.
+    pub folders: &'a [PathBuf],
 }
 
 impl Resolver for Folders<'_> {
     fn include(&self, path: &str, angled: bool, from: Option<&str>) -> io::Result<Included> {
+        self.include_beside(path, angled, from, &|_| None)
+    }
+}
+
+impl Folders<'_> {
+    /// As [`Resolver::include`], where somebody may have files open and have changed them: `open` gives the text of such a
+    /// file, which goes before what the disk has at its place.
+    ///
+    /// # Errors
+    /// There is no such file, or it cannot be read.
+    pub fn include_beside(
+        &self,
+        path: &str,
+        angled: bool,
+        from: Option<&str>,
+        open: &dyn Fn(&Path) -> Option<Vec<u8>>,
+    ) -> io::Result<Included> {
         let from = Path::new(from.unwrap_or(if self.file == "-" { "" } else { self.file }));
         let own = from.parent().unwrap_or(Path::new("")).to_path_buf();
         let given = self.folders.iter().cloned();
@@ -28,11 +46,13 @@ impl Resolver for Folders<'_> {
         let path = path.replace('\\', "/");
         let missing = || io::Error::from(io::ErrorKind::NotFound);
         let found = folders.iter().find_map(|folder| {
-            let opened = folder.join(&path);
-            match (self.open)(&opened) {
-                Some(bytes) => Some((opened, Some(bytes))),
-                None => Some((place(folder, &path)?, None)),
+            let named = folder.join(&path);
+            if let Some(bytes) = open(&named) {
+                return Some((named, Some(bytes)));
             }
+            let place = place(folder, &path)?;
+            let bytes = open(&place);
+            Some((place, bytes))
         });
         let (place, bytes) = match found.ok_or_else(missing)? {
             (place, Some(bytes)) => (place, bytes),
