@@ -44,7 +44,9 @@ local function session()
   end)
   local function ask(method, line, character, more)
     local params = { textDocument = vim.lsp.util.make_text_document_params(), position = { line = line, character = character } }
-    local answer = client.request_sync(method, vim.tbl_extend('force', params, more or {}), PATIENCE, 0)
+    -- The number of the buffer, not 0: only so are changes sent before the question.
+    local buffer = vim.api.nvim_get_current_buf()
+    local answer = client.request_sync(method, vim.tbl_extend('force', params, more or {}), PATIENCE, buffer)
     assert(answer and not answer.err, method .. ': ' .. vim.inspect(answer))
     return answer.result
   end
