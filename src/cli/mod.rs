@@ -21,6 +21,8 @@ mod fmt;
 mod fuzz_match;
 mod generate;
 mod given;
+#[cfg(feature = "servers")]
+mod lsp;
 mod reflect;
 mod run;
 mod scene;
@@ -67,6 +69,8 @@ enum Command {
     Fmt(fmt::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
+    #[cfg(feature = "servers")]
+    Lsp(lsp::Arguments),
     Run(run::Arguments),
     Translate(translate::Arguments),
     Test(test::Arguments),
@@ -125,6 +129,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Fmt(arguments) => fmt::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
+        #[cfg(feature = "servers")]
+        Command::Lsp(arguments) => lsp::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Translate(arguments) => translate::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

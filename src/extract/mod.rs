@@ -13,10 +13,13 @@
 //! the file.
 
 mod host;
+mod repair;
 mod string;
 
 #[cfg(test)]
 mod tests;
+
+pub use repair::repair;
 
 use crate::bytecode::{self, Declaration, Stream, StreamKind};
 use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};

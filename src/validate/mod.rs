@@ -15,11 +15,13 @@ mod report;
 mod stages;
 mod statistics;
 mod structure;
+mod uses;
 
 #[cfg(test)]
 mod tests;
 
-pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
+pub use statistics::{FileUsage, PhaseSlots, SlotUse, Statistics, Usage, slots, statistics};
+pub use uses::{Use, UseKind, origins, uses};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
