@@ -293,7 +293,8 @@ fn every_write_mask() {
         };
         // A pad leaves a row, not a register.
         let pad = matches!(opcode, Opcode::TexM3x2Pad | Opcode::TexM3x3Pad);
-        if shape.masks != MaskSet::ANY && !pad {
+        // Where only one mask is allowed there is nothing to tell.
+        if shape.masks != MaskSet::ANY && shape.masks != MaskSet::FULL && !pad {
             let masks = shape.masks.iter();
             wanted.extend(masks.map(|mask| of_opcode(&title(version, opcode), mask)));
         }
