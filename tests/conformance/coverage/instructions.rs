@@ -127,8 +127,17 @@ fn every_shape_of_a_pair_reads_before_it_writes() {
     let pixel = || Version::all().filter(|version| version.kind() == ShaderKind::Pixel);
     let wanted = pixel().flat_map(|version| {
         // The alpha half of ps.1.0 reads nothing but alpha: it cannot see what the colour half did.
-        let orders = if version == Version::Ps10 { &orders[1..] } else { &orders[..] };
-        let of = move |mask| orders.iter().map(move |order| item(version, mask, order)).collect::<Vec<_>>();
+        let orders = if version == Version::Ps10 {
+            &orders[1..]
+        } else {
+            &orders[..]
+        };
+        let of = move |mask| {
+            orders
+                .iter()
+                .map(move |order| item(version, mask, order))
+                .collect::<Vec<_>>()
+        };
         colors(version).into_iter().flat_map(of).collect::<Vec<_>>()
     });
     let mut list = Checklist::new("shapes of pairs", wanted.collect::<Vec<_>>());

@@ -40,9 +40,11 @@ fn source_modifiers(version: Version, opcode: Opcode, i: usize) -> Vec<SourceMod
         .collect()
 }
 
-/// Twice a number has its sign.
+/// Twice a number has its sign, which is all that the first source of `cmp` is asked for; `rsq` and logarithms take the absolute value.
 fn is_visible(opcode: Opcode, i: usize, modifier: SourceModifier) -> bool {
-    !(opcode == Opcode::Cmp && i == 0 && modifier == SourceModifier::X2)
+    let sign_only = opcode == Opcode::Cmp && i == 0;
+    let absolute = matches!(opcode, Opcode::Rsq | Opcode::Log | Opcode::LogP);
+    !(sign_only && modifier == SourceModifier::X2 || absolute && modifier == SourceModifier::Negate)
 }
 
 fn text(modifier: SourceModifier) -> String {
@@ -266,7 +268,11 @@ fn mask_is_seen(line: &Line<'_>) -> bool {
         .all(|c| set(mask.without(WriteMask::component(c))));
     // Macros and texture instructions write no other components than those of their mask.
     let form = line.opcode().form(line.version).expect("it has one");
-    let others = WriteMask::ALL.without(mask);
+    let mut others = WriteMask::ALL.without(mask);
+    if line.opcode() == Opcode::Bem {
+        // It stands in the first phase, at whose end alpha is lost.
+        others = others.without(WriteMask::W);
+    }
     let wider = || {
         others
             .components()

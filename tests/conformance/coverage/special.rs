@@ -218,10 +218,9 @@ const DST: [Situation; 4] = [
     ("inf or NaN in w", |(s, _)| !s[1][3].is_finite()),
 ];
 
-/// s0.x / s0.y
-const DEPTH: [Situation; 6] = [
+/// s0.x / s0.y. A dot product is never -0, so that only a register can hold such a divisor.
+const DEPTH: [Situation; 5] = [
     ("a divisor of 0", |(s, _)| is_positive_zero(s[0][1])),
-    ("a divisor of -0", |(s, _)| is_negative_zero(s[0][1])),
     ("a negative divisor", |(s, _)| s[0][1] < 0.0),
     ("a depth beyond 1", |(s, _)| {
         s[0][1] > 0.0 && s[0][0] / s[0][1] > 1.0
@@ -236,7 +235,7 @@ fn any(_: Op) -> bool {
     true
 }
 
-const ROWS: [Row; 22] = [
+const ROWS: &[Row] = &[
     Row {
         place: "0",
         opcodes: &[Opcode::Mul, Opcode::Mad],
@@ -364,6 +363,12 @@ const ROWS: [Row; 22] = [
         situations: &DEPTH,
     },
     Row {
+        place: "7.2",
+        opcodes: &[Opcode::TexDepth],
+        steps: |op| op == Op::Depth,
+        situations: &[("a divisor of -0", |(s, _)| is_negative_zero(s[0][1]))],
+    },
+    Row {
         place: "6",
         opcodes: &[Opcode::TexCoord],
         steps: |op| op == Op::Mov,
@@ -457,14 +462,11 @@ fn every_special_address() {
         "addresses",
         situations.iter().map(|(name, _)| (*name).to_owned()),
     );
-    for line in lines() {
+    for line in lines().filter(|line| line.kind() == ShaderKind::Vertex) {
         let steps = &line.shader.kernel.steps;
-        for (invocation, number, sources) in line.probe.reads(ShaderKind::Vertex) {
+        for (invocation, number, sources) in line.probe.reads(line.kind()) {
             let step = &steps[number];
-            if step.origin != line.number
-                || step.op != Op::Floor
-                || line.kind() != ShaderKind::Vertex
-            {
+            if step.origin != line.number || step.op != Op::Floor {
                 continue;
             }
             for (name, holds) in situations {
