@@ -24,6 +24,7 @@ mod version;
 #[cfg(test)]
 mod tests;
 
+pub use encoding::token_macro;
 pub use index::index;
 pub use instruction::{declaration, instruction};
 pub use modifier::{modifier, result};
