@@ -1,7 +1,7 @@
 //! Listings, and what stands in tokens for them.
 
-use super::page::{Fact, Page};
-use crate::bytecode::{self, Macro};
+use super::page::Fact;
+use crate::bytecode;
 use crate::diagnostic::SourceMap;
 use crate::isa::Version;
 use crate::program::{Program, Statement};
@@ -72,25 +72,4 @@ fn labels(line: &str) -> Vec<String> {
     }
     labels.append(&mut operands);
     labels
-}
-
-/// What a macro of `d3d8types.h` makes.
-pub fn token_macro(of: &'static Macro) -> Page {
-    let mut page = Page::new(of.name(), "macro that makes a token");
-    page.paragraph(of.meaning());
-    let (written, token) = of.example();
-    page.facts(vec![
-        Fact::new("written", written),
-        Fact::new("its token", format!("{token:08X}")),
-    ]);
-    let types: Vec<Fact> = of
-        .types()
-        .map(|(name, bytes)| Fact::new(name, format!("{bytes} bytes")))
-        .collect();
-    if !types.is_empty() {
-        page.heading("Types of data");
-        page.facts(types);
-    }
-    super::rule::mention(&mut page, of.name());
-    page
 }

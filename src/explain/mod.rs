@@ -12,6 +12,7 @@
 mod encoding;
 mod index;
 mod instruction;
+mod macros;
 mod modifier;
 mod names;
 mod notation;
@@ -24,9 +25,9 @@ mod version;
 #[cfg(test)]
 mod tests;
 
-pub use encoding::token_macro;
 pub use index::index;
 pub use instruction::{declaration, instruction};
+pub use macros::token_macro;
 pub use modifier::{modifier, result};
 pub use names::{Unknown, find, subjects};
 pub use notation::notation;

@@ -42,7 +42,8 @@ pub fn modifier(modifier: SourceModifier) -> Page {
     if let Some(version) = row.versions().iter().last() {
         page.listing(encoding::listing(version, row.example).trim_end());
     }
-    if row.prefix.is_empty() {
+    // Rules that name it are about results where results have it as well.
+    if row.prefix.is_empty() && ResultSuffix::all().all(|other| other.suffix != row.suffix) {
         rule::mention(&mut page, row.suffix);
     }
     let alike = |other: &SourceModifier| {

@@ -162,10 +162,9 @@ fn notation(text: &str) -> Vec<Subject> {
 fn modifier(text: &str) -> Vec<Subject> {
     let split = |text: &'_ str| -> Option<SourceModifier> {
         let (prefix, suffix) = prefix_of(text);
-        let suffix = suffix.trim_start_matches('_');
-        let suffix = match suffix {
-            "" => String::new(),
-            _ => format!("_{suffix}"),
+        let suffix = match suffix.strip_prefix('_') {
+            None if !suffix.is_empty() => format!("_{suffix}"),
+            _ => suffix.to_string(),
         };
         SourceModifier::from_text(prefix, &suffix).filter(|m| *m != SourceModifier::None)
     };
