@@ -22,7 +22,9 @@ fn a_name_has_its_page() {
 
 #[test]
 fn several_names_and_one_version() {
-    let ran = texcrd(&["explain", "texkill", "mul_x2", "--in", "ps_1_4", "--", "-r0"]);
+    let ran = texcrd(&[
+        "explain", "texkill", "mul_x2", "--in", "ps_1_4", "--", "-r0",
+    ]);
     assert_eq!((ran.status, ran.err.as_str()), (0, ""));
     let heads = ["texkill  ", "mul  ", "_x2  ", "r0  ", "-  "];
     let mut rest = ran.out.as_str();
@@ -43,7 +45,10 @@ fn an_unknown_name_brings_what_is_near() {
     assert_eq!(ran.status, 1);
     // What is known is told all the same.
     assert!(ran.out.starts_with("mov  "), "{}", ran.out);
-    for part in ["nothing called `lpr`; did you mean `lrp`?", "`qqqqqq`; `texcrd explain` lists"] {
+    for part in [
+        "nothing called `lpr`; did you mean `lrp`?",
+        "`qqqqqq`; `texcrd explain` lists",
+    ] {
         assert!(ran.err.contains(part), "{part} in\n{}", ran.err);
     }
 }
@@ -52,7 +57,12 @@ fn an_unknown_name_brings_what_is_near() {
 fn a_rule_is_told_as_check_tells_it() {
     let ran = texcrd(&["explain", "B3"]);
     assert_eq!(ran.status, 0);
-    for part in ["d3d8     error\n", "Breaks it\n", "Keeps it\n", "  error  line "] {
+    for part in [
+        "d3d8     error\n",
+        "Breaks it\n",
+        "Keeps it\n",
+        "  error  line ",
+    ] {
         assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
     }
 }
@@ -61,7 +71,14 @@ fn a_rule_is_told_as_check_tells_it() {
 fn without_a_name_there_is_a_list() {
     let ran = texcrd(&["explain"]);
     assert_eq!((ran.status, ran.err.as_str()), (0, ""));
-    for name in ["texm3x3vspec,", "oFog,", "_bx2,", "ps.1.4\n", "M12,", "D3DVSD_REG,"] {
+    for name in [
+        "texm3x3vspec,",
+        "oFog,",
+        "_bx2,",
+        "ps.1.4\n",
+        "M12,",
+        "D3DVSD_REG,",
+    ] {
         assert!(ran.out.contains(name), "{name} in\n{}", ran.out);
     }
 }
