@@ -12,11 +12,18 @@ use crate::isa::{
 use crate::program::{Statement, Usage, letters};
 
 /// What the letters of formulas stand for, in the order in which it is told.
-const LEGEND: [(&str, &str); 6] = [
+const LEGEND: [(&str, &str); 7] = [
     ("[m", "m is the number of the destination"),
     ("TC[", "TC[m] are the texture coordinates m"),
     ("S[", "S[m](p) is the texture of stage m at p"),
-    ("row ", "row i is the dot product of row i of the matrix"),
+    (
+        "row 0",
+        "row 0 and row 1 are what the pads before it computed",
+    ),
+    (
+        "row i",
+        "row i is the register i places behind s1, d.i the component i of d",
+    ),
     (
         "M00",
         "M00 to M11 are the bump matrix of the destination's stage",
@@ -57,7 +64,9 @@ pub fn instruction(opcode: Opcode, version: Option<Version>) -> Page {
     }
     page.facts(facts);
     for form in &forms {
-        page.heading(form.versions.to_string());
+        if forms.len() > 1 {
+            page.heading(form.versions.to_string());
+        }
         page.paragraph(form.note);
         let mut facts = Vec::new();
         if !one_text {
@@ -258,10 +267,11 @@ fn source(shape: &SourceShape, form: &Form, version: Version) -> String {
             )
         }
         ModifierRule::Coordinates => {
-            format!(
-                "takes {}",
-                having(&|m| m.row().coordinates.contains(version))
-            )
+            let here = |file: RegisterFile| shape.files.contains(file);
+            let has = |m: SourceModifier| {
+                m.row().coordinates.contains(version) && m.row().divides.is_some_and(here)
+            };
+            format!("takes {}", having(&has))
         }
         ModifierRule::Bx2(versions) => {
             let bx2 = super::modifier::name(SourceModifier::Bx2);
