@@ -26,6 +26,7 @@ use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_e
 use crate::listing::{self, Checked};
 use crate::preprocess;
 use crate::preprocess::scan::Language;
+use crate::rules::{model, text as text_rules};
 use crate::syntax;
 use std::fmt;
 
@@ -232,7 +233,16 @@ pub fn open(
     if !found.is_empty() || tokens.is_some() {
         return of_host(sources, name, bytes, options, found);
     }
+    let source = syntax::is_source(&bytes);
     let span = sources.add(name, bytes)?.span();
+    if source {
+        return Ok(File {
+            form: Form::Source,
+            span,
+            shaders: Vec::new(),
+            diagnostics: vec![syntax::no_shader(span.at_start())],
+        });
+    }
     let text = Text::Listing {
         text: span,
         preprocessed: false,
@@ -276,6 +286,7 @@ pub fn format(bytes: &[u8]) -> Layout {
                 Layout::Nothing("this is longer than a listing can be")
             }
             None if syntax::not_text(bytes).is_some() => Layout::Nothing("this is no listing"),
+            None if syntax::is_source(bytes) => Layout::Nothing("no listing stands in it"),
             None => Layout::Done(syntax::format(bytes)),
         };
     }
@@ -352,6 +363,7 @@ fn of_host(
         Text::Tokens(stream) => stream.place(Span::new(0, 1)).start,
     };
     shaders.sort_by_key(start);
+    leave_out_later(sources, &mut shaders, &mut diagnostics);
     let form = if effect { Form::Effect } else { Form::Source };
     Ok(File {
         form,
@@ -359,6 +371,47 @@ fn of_host(
         shaders,
         diagnostics,
     })
+}
+
+/// Takes away the shaders of later models if there are others: files of the time hold a shader for each generation of
+/// hardware.
+fn leave_out_later(
+    sources: &SourceMap,
+    shaders: &mut Vec<Shader>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let all: Vec<_> = shaders.iter().map(|s| of_later_model(sources, s)).collect();
+    if all.iter().all(Option::is_some) {
+        return;
+    }
+    let mut one = all.iter();
+    shaders.retain(|_| one.next().is_none_or(Option::is_none));
+    diagnostics.extend(all.into_iter().flatten());
+}
+
+/// What is said of a shader that is left out because it is of a later model.
+fn of_later_model(sources: &SourceMap, shader: &Shader) -> Option<Diagnostic> {
+    const HELP: &str = "the others are read; Direct3D 8 has vs.1.0, vs.1.1 and ps.1.0 to ps.1.4";
+    match &shader.text {
+        Text::Listing { text, .. } => {
+            let version = syntax::later_model(sources.bytes(*text))?;
+            let span = Span::new(text.start + version.start, text.start + version.end);
+            let name = sources.text(span);
+            let message = format!("`{name}` begins a shader of a later model, which is left out");
+            Some(Diagnostic::warning(&text_rules::VERSION_UNKNOWN, span, message).with_help(HELP))
+        }
+        Text::Tokens(stream) => {
+            let word = *stream.words.first()?;
+            let later = word >= 0xFFFE_0000 && matches!(word >> 8 & 0xFF, 2..=5);
+            let message =
+                format!("0x{word:08X} begins a shader of a later model, which is left out");
+            let report = Diagnostic::warning(&model::S13, Span::new(0, 1), message);
+            stream
+                .placed(vec![report.with_help(HELP)])
+                .pop()
+                .filter(|_| later)
+        }
+    }
 }
 
 /// Reads a shader of a file: its text, or its tokens by way of their listing, which is added to the sources.

@@ -14,7 +14,7 @@ pub(crate) enum Kind {
     Blank,
     /// The end of a line.
     NewLine,
-    /// A backslash at the end of a line of a directive, with the line end.
+    /// A backslash at the end of a line, with the line end: in directives, and anywhere in C.
     Splice,
     /// A string with its quotes; only where strings are looked for.
     Text,
@@ -136,7 +136,7 @@ impl Scanner {
 
     fn follow_blocks(&mut self, kind: Kind, text: &[u8]) {
         self.block = match (self.block, kind) {
-            (block, Kind::Blank | Kind::NewLine) => block,
+            (block, Kind::Blank | Kind::NewLine | Kind::Splice) => block,
             (Block::Inside, Kind::Sign) if text == b"}" => Block::Outside,
             (Block::Inside, _) => Block::Inside,
             (Block::Announced, Kind::Sign) if text == b"{" => Block::Inside,
@@ -165,7 +165,7 @@ impl Scanner {
         match first {
             b'\n' => (Kind::NewLine, 1),
             b'\r' if rest.starts_with(b"\r\n") => (Kind::NewLine, 2),
-            b'\\' if self.directive && splice(rest).is_some() => {
+            b'\\' if (self.directive || !self.in_listing()) && splice(rest).is_some() => {
                 (Kind::Splice, splice(rest).unwrap_or(1))
             }
             b';' if self.in_listing() => (Kind::Blank, self.line(rest)),
