@@ -129,6 +129,13 @@ fn masks_are_apart(listing: &Listing, first: &Line, second: &Line, report: &mut 
     ) else {
         return;
     };
+    let allowed = |line: &Line, mask: WriteMask| {
+        let shape = line.form.and_then(|form| form.destination);
+        shape.is_none_or(|shape| shape.masks.contains(mask))
+    };
+    if !allowed(first, a.mask) || !allowed(second, b.mask) {
+        return; // M7 speaks of a mask that the instruction does not have on its own.
+    }
     let is_color = |m: WriteMask| match listing.version {
         Version::Ps14 => !m.has(3),
         _ => m == WriteMask::XYZ,

@@ -17,7 +17,7 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
         for line in group {
             halves_fit &= instruction_fits(listing, line, report);
         }
-        if let ([first, second], true) = (group, halves_fit) {
+        if let ([first, second], true) = (group, halves_fit && listing.is_pixel()) {
             pair_fits(listing, first, second, report);
         }
     }
