@@ -42,6 +42,7 @@ use texcrd::policy::Dialect;
 Examples:
   texcrd run asm/stained_glass/scene.toml -o stained_glass.png
   texcrd check --stats shader.psh
+  texcrd explain lrp
   texcrd translate shader.vsh shader.psh -o shader.wgsl
   texcrd compare asm/stained_glass/figure5.toml
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
