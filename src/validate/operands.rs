@@ -150,8 +150,12 @@ fn check_destination(
         return;
     }
     let opcode = line.instruction.opcode;
-    // Of an a0 that no version could have here O5 tells more than O4.
-    let misplaced = register.file == RegisterFile::Addr && opcode != Opcode::Mov;
+    // Of an a0 that no version could have here O5 tells more than O4, and of a constant O2 more than O26.
+    let misplaced = match register.file {
+        RegisterFile::Addr => opcode != Opcode::Mov,
+        RegisterFile::Const => true,
+        _ => false,
+    };
     if !misplaced && !register_exists(listing, register, span, Code::O1, report) {
         return;
     }

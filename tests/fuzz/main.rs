@@ -7,6 +7,8 @@ mod seeds;
 
 use judge::Seen;
 use seeds::Seeds;
+use std::fmt::{Debug, Formatter};
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 use texcrd::bytecode;
@@ -15,39 +17,60 @@ use texcrd::generate::Random;
 /// No input may take longer than this, unoptimised on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
 
-/// Judges what a seed gives; a finding names the seed.
-#[track_caller]
-fn judged<T, R>(seed: u64, input: T, what: impl Fn(&T) -> R) -> R
-where
-    T: std::fmt::Debug,
-{
-    let start = Instant::now();
-    let Ok(result) = catch_unwind(AssertUnwindSafe(|| what(&input))) else {
-        panic!("seed {seed}: {input:?}");
-    };
-    let taken = start.elapsed();
-    assert!(taken < LONGEST, "seed {seed} took {taken:?}: {input:?}");
-    result
+/// What inputs a run has found that do not survive, by seed.
+#[derive(Default)]
+struct Findings(Vec<String>);
+
+impl Findings {
+    /// Judges what a seed gives; nothing if that is a finding.
+    fn judge<T: Debug, R: Default>(&mut self, seed: u64, input: T, what: impl Fn(&T) -> R) -> R {
+        let start = Instant::now();
+        let result = catch_unwind(AssertUnwindSafe(|| what(&input)));
+        let taken = start.elapsed();
+        if result.is_err() || taken > LONGEST {
+            self.0.push(format!("seed {seed} in {taken:?}: {input:?}"));
+        }
+        result.unwrap_or_default()
+    }
+
+    #[track_caller]
+    fn are_none(self) {
+        let count = self.0.len();
+        assert!(count == 0, "{count} findings:\n{}", self.0.join("\n"));
+    }
 }
 
-fn listings(seeds: std::ops::Range<u64>) -> Seen {
-    let known = Seeds::new();
+/// A text that is readable in a message.
+struct Listing(Vec<u8>);
+
+impl Debug for Listing {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        Debug::fmt(&String::from_utf8_lossy(&self.0), f)
+    }
+}
+
+#[track_caller]
+fn listings(seeds: Range<u64>) -> Seen {
+    let (known, mut findings) = (Seeds::new(), Findings::default());
     let mut seen = Seen::default();
     for seed in seeds {
-        let text = mutate::text(&mut Random::new(seed), &known);
-        seen.add(judged(seed, text, |text| judge::file(text)));
+        let text = Listing(mutate::text(&mut Random::new(seed), &known));
+        seen.add(findings.judge(seed, text, |text| judge::file(&text.0)));
     }
+    findings.are_none();
     seen
 }
 
 /// How many of the streams are valid.
-fn streams(seeds: std::ops::Range<u64>) -> usize {
-    let known = Seeds::new();
+#[track_caller]
+fn streams(seeds: Range<u64>) -> usize {
+    let (known, mut findings) = (Seeds::new(), Findings::default());
     let mut valid = 0;
     for seed in seeds {
         let words = mutate::stream(&mut Random::new(seed), &known);
-        valid += usize::from(judged(seed, words, |words| judge::words(words)));
+        valid += usize::from(findings.judge(seed, words, |words| judge::words(words)));
     }
+    findings.are_none();
     valid
 }
 
@@ -83,18 +106,18 @@ fn mutated_streams() {
 /// Streams in the forms in which files have them.
 #[test]
 fn mutated_streams_in_files() {
-    let known = Seeds::new();
+    let (known, mut findings) = (Seeds::new(), Findings::default());
     for seed in 0..60 {
         let words = mutate::stream(&mut Random::new(seed), &known);
-        judged(seed, bytecode::to_bytes(&words), |bytes| judge::file(bytes));
-        judged(seed, bytecode::to_hex(&words), |text| {
-            judge::file(text.as_bytes())
-        });
+        let (bytes, text) = (bytecode::to_bytes(&words), bytecode::to_hex(&words));
+        findings.judge(seed, bytes, |bytes| judge::file(bytes));
+        findings.judge(seed, text, |text| judge::file(text.as_bytes()));
     }
+    findings.are_none();
 }
 
 /// How many inputs the long runs take, from the environment.
-fn count(name: &str, usual: u64) -> std::ops::Range<u64> {
+fn count(name: &str, usual: u64) -> Range<u64> {
     let given = std::env::var(name).ok().and_then(|text| text.parse().ok());
     0..given.unwrap_or(usual)
 }

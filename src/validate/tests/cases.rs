@@ -19,6 +19,7 @@ O1: ps.1.4 | mov r0, {c8}
 O1: vs.1.1 | mov r9, v0 | mov r10, v0 | mov r11, v0 | m4x4 oPos, v0, {r9}
 O1 ok: ps.1.4 | mov r0, c7
 O2: vs.1.1 | mov {v0}, c0 | mov oPos, v0
+O2: vs.1.1 | mov {c255}, v0 | mov oPos, v0
 O3: ps.1.3 | mov r0, v0 | cnd r0, {a0.a}, v0, v1
 O4: vs.1.0 | mov oPos, v0 | mov {a0.x}, v1.x
 O5: vs.1.1 | mov oPos, v0 | mov {a0}, v0
