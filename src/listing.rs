@@ -30,7 +30,8 @@ impl Checked {
 pub struct Options<'a> {
     /// By whose rules it is judged.
     pub dialect: Dialect,
-    /// Whether only the text is judged, and not the rules of the shader model.
+    /// Whether only that is judged which the assembler itself refused: the text, and what [`validate::assembles`] says
+    /// of it; not the other rules of the shader model. Of tokens nothing is judged then.
     pub unchecked: bool,
     /// Whether names may have been defined that are not known here.
     pub names_missing: bool,
@@ -87,8 +88,12 @@ fn check_preprocessed(
             diagnostics: Vec::new(),
         },
     };
-    if !preprocessed.diagnostics.is_empty() {
-        checked.diagnostics.splice(0..0, preprocessed.diagnostics);
+    let mut found = preprocessed.diagnostics;
+    if let (true, Some(program)) = (options.unchecked, &checked.program) {
+        found.extend(validate::assembles(program));
+    }
+    if !found.is_empty() {
+        checked.diagnostics.splice(0..0, found);
         checked.diagnostics.sort_by_key(|d| sources.written(d.span));
     }
     checked
