@@ -25,7 +25,7 @@ mod version;
 mod tests;
 
 pub use index::index;
-pub use instruction::{declaration, instruction};
+pub use instruction::{declaration, instruction, operand_names, written};
 pub use modifier::{modifier, result};
 pub use names::{Unknown, find, subjects};
 pub use notation::notation;

@@ -7,7 +7,8 @@ use std::fs;
 use std::process::Command;
 
 /// `1rp` is no instruction, and ps.1.1 has no r9. The character in the comment has two units of UTF-16, and four bytes.
-const LISTING: &str = "ps.1.1\ndef c0, 1, 0.5, 0, 1\n1rp r0, v0, v1, c0\nadd /* \u{1f600} */ r9, r0, v0\n";
+const LISTING: &str =
+    "ps.1.1\ndef c0, 1, 0.5, 0, 1\n1rp r0, v0, v1, c0\nadd /* \u{1f600} */ r9, r0, v0\n";
 
 #[test]
 fn a_session_in_neovim() {
