@@ -118,12 +118,21 @@ fn formula(form: &Form) -> Vec<Fact> {
     facts
 }
 
-/// The instruction as it is written, with the names of its operands in the formula.
-fn written(opcode: Opcode, form: &Form) -> String {
-    let mnemonic = opcode.mnemonic();
+/// An instruction as it is written, with the names of its operands in the formula: `mad d, s0, s1, s2`.
+pub fn written(opcode: Opcode, form: &Form) -> String {
+    let mnemonic = match opcode {
+        Opcode::Dcl => "dcl_usage",
+        _ => opcode.mnemonic(),
+    };
+    let operands = operand_names(opcode, form).join(", ");
+    format!("{mnemonic} {operands}").trim_end().to_string()
+}
+
+/// The operands of an instruction by their names in its formula, in the order in which they are written.
+pub fn operand_names(opcode: Opcode, form: &Form) -> Vec<String> {
     match opcode {
-        Opcode::Def => return format!("{mnemonic} c#, x, y, z, w"),
-        Opcode::Dcl => return format!("{mnemonic}_usage v#"),
+        Opcode::Def => return ["c#", "x", "y", "z", "w"].map(str::to_string).to_vec(),
+        Opcode::Dcl => return vec!["v#".to_string()],
         _ => {}
     }
     let destination = form
@@ -133,10 +142,7 @@ fn written(opcode: Opcode, form: &Form) -> String {
             false => "d".to_string(),
         });
     let sources = (0..form.sources.len()).map(|i| format!("s{i}"));
-    let operands: Vec<String> = destination.into_iter().chain(sources).collect();
-    format!("{mnemonic} {}", operands.join(", "))
-        .trim_end()
-        .to_string()
+    destination.into_iter().chain(sources).collect()
 }
 
 /// The slots that a form takes of those that its versions have.

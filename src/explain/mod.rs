@@ -26,7 +26,7 @@ mod version;
 mod tests;
 
 pub use index::index;
-pub use instruction::{declaration, instruction};
+pub use instruction::{declaration, instruction, operand_names, written};
 pub use macros::token_macro;
 pub use modifier::{modifier, result};
 pub use names::{Unknown, find, subjects};

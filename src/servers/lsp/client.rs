@@ -4,6 +4,7 @@ use super::text::Encoding;
 use super::uri;
 use serde_json::{Value, json};
 use std::path::PathBuf;
+use texcrd::explain::Page;
 
 /// The client as it has introduced itself. What it does not say it cannot do.
 #[derive(Clone, Debug, Default)]
@@ -101,6 +102,15 @@ impl Client {
                 "documentRangeFormattingProvider": true,
             },
         })
+    }
+
+    /// A page as it is shown.
+    pub(super) fn page(&self, page: &Page) -> String {
+        const WIDTH: usize = 80;
+        match self.markdown {
+            true => page.markdown(),
+            false => page.text(WIDTH),
+        }
     }
 
     /// Text for people, which is Markdown: as that, or as it stands where that is not shown.

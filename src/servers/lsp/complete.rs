@@ -3,12 +3,13 @@
 use super::analysis::{Analysis, Shader};
 use super::client::Client;
 use super::documents::Document;
+use super::macros;
 use super::words::{self, Kind, Line, Statement};
-use super::{macros, pages};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::ops::Range;
-use texcrd::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
+use texcrd::explain;
+use texcrd::isa::modifier::{ResultSuffix, SATURATION, SHIFTS};
 use texcrd::isa::opcode::{ModifierRule, Pairing, SourceShape};
 use texcrd::isa::register::Access;
 use texcrd::isa::{
@@ -107,15 +108,25 @@ pub(super) fn resolve(mut item: Value, client: &Client) -> Value {
     };
     let version = name("version").and_then(|name| Version::all().find(|v| v.name() == name));
     let page = (name("instruction").and_then(Opcode::from_mnemonic))
-        .map(|opcode| pages::instruction(opcode, version))
+        .map(|opcode| explain::instruction(opcode, version))
+        .or_else(|| Some(explain::declaration(Usage::from_name(name("usage")?)?)))
         .or_else(|| {
             let (file, index) = RegisterFile::named(name("register")?)?;
-            Some(pages::register(file, index, version))
+            Some(explain::register(file, Some(index), version))
         })
-        .or_else(|| pages::source_modifier(name("source")?))
-        .or_else(|| pages::result_modifier(name("result")?));
+        .or_else(|| {
+            Some(explain::modifier(SourceModifier::from_text(
+                "",
+                name("source")?,
+            )?))
+        })
+        .or_else(|| {
+            let suffix = name("result")?;
+            let row = ResultSuffix::all().find(|row| row.suffix == suffix)?;
+            Some(explain::result(row))
+        });
     if let Some(page) = page {
-        item["documentation"] = client.markup(&page);
+        item["documentation"] = client.markup(&client.page(&page));
     }
     item
 }
@@ -175,13 +186,7 @@ fn versions(text: &str, shader: &Shader, offset: usize) -> Option<(Vec<Item>, Ra
     if before.get(..start)?.lines().any(code) {
         return None;
     }
-    let one = |version: Version| {
-        Item::new(
-            version.name(),
-            MODULE,
-            pages::version(version).lines().nth(2).unwrap_or_default(),
-        )
-    };
+    let one = |version: Version| Item::new(version.name(), MODULE, explain::version(version).title);
     let items = Version::all().map(one).collect();
     Some((items, shader.region.start + start..offset))
 }
@@ -281,7 +286,7 @@ impl Place<'_> {
                 continue;
             }
             let mut item = Item::new(opcode.mnemonic(), KEYWORD, form.formula);
-            let operands = pages::operands(opcode, form);
+            let operands = explain::operand_names(opcode, form);
             let places = operands
                 .iter()
                 .enumerate()
@@ -343,23 +348,18 @@ impl Place<'_> {
             .get(..typed)
             .and_then(|typed| typed.get(..typed.rfind('_')?))
             .unwrap_or(word);
-        let shifted = SHIFTS.iter().any(|row| kept.ends_with(row.suffix));
-        let mut suffixes: Vec<&str> = Vec::new();
-        if !kept.ends_with(SATURATE_SUFFIX) {
-            let shifts = SHIFTS
-                .iter()
-                .filter(|row| !shifted && row.versions.contains(self.version));
-            suffixes.extend(shifts.map(|row| row.suffix));
-            suffixes.push(SATURATE_SUFFIX);
-        }
-        let one = |suffix: &str| {
-            let page = pages::result_modifier(suffix).unwrap_or_default();
-            let mut item = Item::new(suffix, PROPERTY, short(&page));
-            item.text = format!("{kept}{suffix}");
-            item.data = json!({ "result": suffix });
+        let has = |row: &ResultSuffix| kept.ends_with(row.suffix);
+        let (saturated, shifted) = (has(&SATURATION), SHIFTS.iter().any(has));
+        let one = |row: &ResultSuffix| {
+            let mut item = Item::new(row.suffix, PROPERTY, row.formula);
+            item.text = format!("{kept}{}", row.suffix);
+            item.data = json!({ "result": row.suffix });
             item
         };
-        suffixes.into_iter().map(one).collect()
+        let fits = |row: &&ResultSuffix| {
+            row.versions.contains(self.version) && !saturated && (row.shift == 0 || !shifted)
+        };
+        ResultSuffix::all().filter(fits).map(one).collect()
     }
 
     /// What may stand in the operand that the place lies in.
@@ -569,16 +569,8 @@ fn usages() -> Vec<Item> {
             .default_register(0)
             .map_or("v".to_string(), |r| format!("v{r}"));
         item.snippet = Some(format!("dcl_{name} ${{1:{register}}}"));
-        item.data = json!({ "instruction": Opcode::Dcl.mnemonic() });
+        item.data = json!({ "usage": name });
         item
     };
     Usage::all().map(one).collect()
-}
-
-/// The first line of a page without its title.
-fn short(page: &str) -> String {
-    let line = page.lines().next().unwrap_or_default();
-    line.split_once(" — ")
-        .map_or(line, |(_, text)| text)
-        .to_string()
 }

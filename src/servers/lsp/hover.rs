@@ -4,9 +4,13 @@ use super::analysis::Analysis;
 use super::client::Client;
 use super::documents::Document;
 use super::words::{self, Kind};
-use super::{macros, pages, registers};
+use super::{macros, registers};
 use serde_json::{Value, json};
 use std::ops::Range;
+use texcrd::explain;
+use texcrd::isa::modifier::ResultSuffix;
+use texcrd::isa::{Opcode, SourceModifier};
+use texcrd::program::Usage;
 
 /// What there is to say of the word at a byte of a document.
 pub(super) fn hover(
@@ -15,8 +19,8 @@ pub(super) fn hover(
     offset: usize,
     client: &Client,
 ) -> Value {
-    let found =
-        of_macro(analysis, document, offset).or_else(|| of_word(analysis, document, offset));
+    let found = of_macro(analysis, document, offset)
+        .or_else(|| of_word(analysis, document, offset, client));
     let Some((text, at)) = found else {
         return Value::Null;
     };
@@ -47,7 +51,12 @@ fn of_macro(analysis: &Analysis, document: &Document, offset: usize) -> Option<H
 /// The most of a macro that is shown, in characters.
 const LONGEST: usize = 2000;
 
-fn of_word(analysis: &Analysis, document: &Document, offset: usize) -> Option<Hover> {
+fn of_word(
+    analysis: &Analysis,
+    document: &Document,
+    offset: usize,
+    client: &Client,
+) -> Option<Hover> {
     let text = &document.text;
     let shader = analysis.shader_at(offset).filter(|shader| shader.listing)?;
     let line = words::line_at(text, &shader.region, analysis.in_strings(), offset);
@@ -63,27 +72,35 @@ fn of_word(analysis: &Analysis, document: &Document, offset: usize) -> Option<Ho
         && at.start <= offset
         && offset <= at.end
     {
-        return Some((pages::version(version), at));
+        return Some((client.page(&explain::version(version)), at));
     }
     let touched = line.touched(offset)?;
     let token = line.tokens.get(touched)?;
     let word = token.text(text);
     let statements = line.statements(text);
-    if let Some(statement) = statements.iter().find(|s| s.mnemonic == token.at) {
-        let (_, suffixes) = words::mnemonic(word)?;
+    if statements.iter().any(|s| s.mnemonic == token.at) {
+        let (opcode, suffixes) = words::mnemonic(word)?;
         let start = token.at.end - suffixes.len();
-        if offset > start && statement.opcode != texcrd::isa::Opcode::Dcl {
-            return result_suffix(suffixes, start, offset);
+        if opcode == Opcode::Dcl {
+            let name = suffixes.trim_start_matches('_');
+            let usage = Usage::from_name(name.trim_end_matches(|c: char| c.is_ascii_digit()));
+            let page = usage.map_or_else(
+                || explain::instruction(opcode, version),
+                explain::declaration,
+            );
+            return Some((client.page(&page), token.at.clone()));
         }
-        return Some((
-            pages::instruction(statement.opcode, version),
-            token.at.clone(),
-        ));
+        if offset > start && !suffixes.is_empty() {
+            return result_suffix(suffixes, start, offset, client);
+        }
+        let page = explain::instruction(opcode, version);
+        return Some((client.page(&page), token.at.clone()));
     }
     if let Some((_, suffix)) = words::register(word).filter(|_| token.kind == Kind::Word) {
         let start = token.at.end - suffix.len();
         if offset > start && !suffix.is_empty() {
-            return Some((pages::source_modifier(suffix)?, start..token.at.end));
+            let page = explain::modifier(SourceModifier::from_text("", suffix)?);
+            return Some((client.page(&page), start..token.at.end));
         }
     }
     if let Some((shader, used)) = registers::use_at(analysis, text, offset) {
@@ -95,24 +112,24 @@ fn of_word(analysis: &Analysis, document: &Document, offset: usize) -> Option<Ho
         if !page.is_empty() {
             page.push_str("\n---\n\n");
         }
-        page.push_str(&pages::register(
-            used.register.file,
-            used.register.index,
-            version,
-        ));
+        let register = used.register;
+        let general = explain::register(register.file, Some(register.index), version);
+        page.push_str(&client.page(&general));
         return Some((page, at));
     }
     let ((file, index), _) = words::register(word)?;
-    Some((pages::register(file, index, version), token.at.clone()))
+    let page = explain::register(file, Some(index), version);
+    Some((client.page(&page), token.at.clone()))
 }
 
 /// The suffix of a mnemonic that a place lies in.
-fn result_suffix(suffixes: &str, start: usize, offset: usize) -> Option<Hover> {
+fn result_suffix(suffixes: &str, start: usize, offset: usize, client: &Client) -> Option<Hover> {
     let mut at = start;
     for part in suffixes.split('_').skip(1) {
         let here = at..at + 1 + part.len();
         if offset <= here.end {
-            return Some((pages::result_modifier(&format!("_{part}"))?, here));
+            let row = ResultSuffix::all().find(|row| row.suffix.trim_start_matches('_') == part)?;
+            return Some((client.page(&explain::result(row)), here));
         }
         at = here.end;
     }

@@ -7,7 +7,7 @@
 //!
 //! Files: `message` (JSON-RPC), `client` (what the client can do), `settings`, `documents` (open texts) with `text` (places) and
 //! `uri`, `analysis` (a document, read) with `publish` (what is wrong with it), `requests` (what is asked for), and what is asked for by
-//! kinds: `hover` with `pages`, `complete` and `signature` with `words`, `navigate` with `registers`, `macros` and `directives`, `outline`,
+//! kinds: `hover`, `complete` and `signature` with `words`, `navigate` with `registers`, `macros` and `directives`, `outline`,
 //! `hints`, `actions`.
 
 mod actions;
@@ -22,7 +22,6 @@ mod macros;
 mod message;
 mod navigate;
 mod outline;
-mod pages;
 mod publish;
 mod registers;
 mod requests;

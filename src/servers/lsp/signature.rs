@@ -3,8 +3,9 @@
 use super::analysis::Analysis;
 use super::client::Client;
 use super::documents::Document;
-use super::{pages, words};
+use super::words;
 use serde_json::{Value, json};
+use texcrd::explain;
 
 /// The operands of the instruction that a byte lies in, and which of them it is.
 pub(super) fn signature(
@@ -28,22 +29,19 @@ pub(super) fn signature(
     let Some(form) = statement.opcode.form(version) else {
         return Value::Null;
     };
-    let operands = pages::operands(statement.opcode, form);
+    let names = explain::operand_names(statement.opcode, form);
     let tokens = line.tokens.get(statement.operands.clone()).unwrap_or(&[]);
     let active = tokens
         .iter()
         .filter(|t| t.is(',') && t.at.start < offset)
         .count();
-    if active >= operands.len() {
+    if active >= names.len() {
         return Value::Null;
     }
-    let parameters: Vec<Value> = operands
-        .iter()
-        .map(|name| json!({ "label": name }))
-        .collect();
+    let parameters: Vec<Value> = names.iter().map(|name| json!({ "label": name })).collect();
     json!({
         "signatures": [{
-            "label": pages::usage(statement.opcode, form),
+            "label": explain::written(statement.opcode, form),
             "documentation": client.markup(&format!("`{}`", form.formula)),
             "parameters": parameters,
         }],
