@@ -25,6 +25,7 @@ mod reflect;
 mod run;
 mod scene;
 mod shaders;
+mod stats;
 mod test;
 mod translate;
 

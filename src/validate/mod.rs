@@ -19,7 +19,10 @@ mod structure;
 #[cfg(test)]
 mod tests;
 
-pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
+pub use statistics::{
+    Coordinates, FileUsage, FullPorts, PhaseSlots, PossiblePair, Stage, Statistics, Usage,
+    statistics,
+};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
