@@ -27,6 +27,7 @@ mod reflect;
 mod run;
 mod scene;
 mod shaders;
+mod stats;
 mod test;
 mod translate;
 

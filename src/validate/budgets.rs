@@ -36,6 +36,16 @@ pub(super) fn cost(group: &[Line]) -> Slots {
     })
 }
 
+/// Arithmetic slots of these lines if they run one by one.
+pub(super) fn slots_apart(lines: &[Line]) -> u32 {
+    lines.chunks(1).map(|line| cost(line).arithmetic).sum()
+}
+
+/// Arithmetic slots of these lines if they run at once.
+pub(super) fn slots_joined(lines: &[Line]) -> u32 {
+    cost(lines).arithmetic
+}
+
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     let over = most_of_an_instruction(listing, report);
     slots_of_phases(listing, &over, report);

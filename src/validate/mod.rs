@@ -20,7 +20,10 @@ mod uses;
 #[cfg(test)]
 mod tests;
 
-pub use statistics::{FileUsage, PhaseSlots, SlotUse, Statistics, Usage, slots, statistics};
+pub use statistics::{
+    Coordinates, FileUsage, FullPorts, PhaseSlots, PossiblePair, SlotUse, Stage, Statistics, Usage,
+    slots, statistics,
+};
 pub use uses::{Use, UseKind, origins, uses};
 
 use crate::diagnostic::{Diagnostic, Span};

@@ -3,6 +3,7 @@
 mod cases;
 mod dialects;
 mod listings;
+mod room;
 
 use crate::diagnostic::{Diagnostic, SourceMap};
 use crate::listing;

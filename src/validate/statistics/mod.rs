@@ -1,9 +1,15 @@
 //! How much of what a version offers a shader uses.
 
+mod room;
+mod stages;
+
+pub use room::{FullPorts, PossiblePair};
+pub use stages::{Coordinates, Stage};
+
 use super::budgets;
 use super::listing::{Line, Listing};
 use crate::diagnostic::Span;
-use crate::isa::{Opcode, RegisterFile, Version};
+use crate::isa::{RegisterFile, Version};
 use crate::program::Program;
 use std::collections::BTreeSet;
 
@@ -46,12 +52,16 @@ pub struct Statistics {
     pub phases: Vec<PhaseSlots>,
     /// Every file that the version has.
     pub files: Vec<FileUsage>,
-    /// Pixel shaders: the texture stages that are sampled, in order.
-    pub stages: Vec<u32>,
+    /// Pixel shaders: the texture stages that are sampled, in order, with what each needs.
+    pub stages: Vec<Stage>,
     /// Pixel shaders: the sets of texture coordinates that are read, in order.
     pub coordinate_sets: Vec<u32>,
     /// Whether constants are addressed relative to `a0.x`, so that all of them may be read.
     pub relative: bool,
+    /// Where as many registers of a file are read at once as may be.
+    pub full_ports: Vec<FullPorts>,
+    /// Pixel shaders: neighbours that could be a pair, in order; no instruction is in two of them.
+    pub possible_pairs: Vec<PossiblePair>,
 }
 
 /// Counts what a shader uses. Works on shaders that break rules, too.
@@ -76,12 +86,6 @@ pub fn statistics(program: &Program) -> Statistics {
     });
     let named = named_registers(&listing);
     let files = RegisterFile::all().filter(|f| f.count(listing.version) > 0);
-    let mut stages = BTreeSet::new();
-    let mut coordinate_sets = BTreeSet::new();
-    for line in &listing.lines {
-        stages.extend(sampled_stage(line));
-        coordinate_sets.extend(read_coordinates(&listing, line));
-    }
     Statistics {
         version: listing.version,
         phases: phases.collect(),
@@ -96,11 +100,13 @@ pub fn statistics(program: &Program) -> Statistics {
                 allowed: file.count(listing.version),
             })
             .collect(),
-        stages: stages.into_iter().collect(),
-        coordinate_sets: coordinate_sets.into_iter().collect(),
+        stages: stages::sampled(&listing),
+        coordinate_sets: stages::coordinate_sets(&listing),
         relative: program
             .instructions()
             .any(|i| i.sources.iter().any(|s| s.register.relative)),
+        full_ports: room::full_ports(&listing),
+        possible_pairs: room::possible_pairs(&listing),
     }
 }
 
@@ -164,43 +170,6 @@ fn named_registers(listing: &Listing) -> BTreeSet<(RegisterFile, u32)> {
         }
     }
     named
-}
-
-/// The stage that a line samples.
-fn sampled_stage(line: &Line) -> Option<u32> {
-    let samples = !matches!(
-        line.instruction.opcode,
-        Opcode::TexCoord
-            | Opcode::TexCrd
-            | Opcode::TexKill
-            | Opcode::TexM3x2Pad
-            | Opcode::TexM3x3Pad
-            | Opcode::TexM3x2Depth
-            | Opcode::TexDp3
-            | Opcode::TexM3x3
-            | Opcode::TexDepth
-    );
-    let destination = line.instruction.destination?;
-    (line.is_texture() && samples).then_some(destination.register.index)
-}
-
-/// The coordinate set that a line reads: in `ps.1.4` the `t#` it names, before that the one of its own number.
-fn read_coordinates(listing: &Listing, line: &Line) -> Option<u32> {
-    if !line.is_texture() {
-        return None;
-    }
-    let destination = line.instruction.destination?;
-    if listing.has_texture_stages() {
-        let from_a_color = matches!(
-            line.instruction.opcode,
-            Opcode::TexReg2Ar | Opcode::TexReg2Gb | Opcode::TexReg2Rgb
-        );
-        return (!from_a_color).then_some(destination.register.index);
-    }
-    let mut registers = std::iter::once(destination.register)
-        .chain(line.instruction.sources.iter().map(|s| s.register));
-    let coordinates = registers.find(|r| r.file == RegisterFile::Texture)?;
-    Some(coordinates.index)
 }
 
 #[cfg(test)]
