@@ -3,8 +3,9 @@
 use super::names::subjects;
 use super::page::{Fact, Page};
 use super::subject::Subject;
+use crate::bytecode::{Declaration, StreamKind};
 use crate::diagnostic::{Diagnostic, Severity, SourceMap};
-use crate::extract;
+use crate::extract::{self, Text};
 use crate::listing;
 use crate::policy::Dialect;
 use crate::preprocess;
@@ -66,6 +67,15 @@ fn judged(text: &str, dialect: Dialect, id: &str) -> Option<Vec<Fact>> {
                 .ok()?
                 .diagnostics,
         );
+    }
+    // D5 holds without a shader, which examples of declarations do not have.
+    for shader in &file.shaders {
+        if let Text::Tokens(stream) = &shader.text
+            && stream.kind == StreamKind::Declaration
+        {
+            let (declaration, _) = Declaration::decode(&stream.words);
+            found.extend(stream.placed(declaration.check_fixed_function()));
+        }
     }
     let breach = found
         .into_iter()

@@ -78,7 +78,7 @@ test('what is asked for about a listing', options, async () => {
     const whole = { textDocument: { uri } };
 
     const hover = keep('Hover', (await connection.sendRequest(lsp.HoverRequest.type, at(4, 1)))!);
-    assert.match((hover.contents as lsp.MarkupContent).value, /s0 \* s1/);
+    assert.match((hover.contents as lsp.MarkupContent).value, /s0 \\\* s1/);
     const constant = (await connection.sendRequest(lsp.HoverRequest.type, at(4, 17)))!;
     assert.match((constant.contents as lsp.MarkupContent).value, /def c0, 1, 0\.5, 0, 1/);
 

@@ -194,7 +194,7 @@ fn documentation_comes_when_it_is_asked_for() {
         .clone();
     let resolved = client.ask("completionItem/resolve", item);
     let text = resolved["documentation"]["value"].as_str().unwrap();
-    assert!(text.contains("s0 * s1 + (1 - s0) * s2"), "{text}");
+    assert!(text.contains("s0 \\* s1 + (1 - s0) \\* s2"), "{text}");
     let nothing = client.ask(
         "completionItem/resolve",
         json!({ "label": "x", "data": { "register": 3 } }),

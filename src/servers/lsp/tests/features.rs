@@ -177,7 +177,7 @@ fn hovers_say_what_stands_there() {
         "{version} {at}"
     );
     let (mul, at) = hover(5, 1);
-    assert!(mul.contains("s0 * s1") && at == "5:0-5:7", "{mul} {at}");
+    assert!(mul.contains("s0 \\* s1") && at == "5:0-5:7", "{mul} {at}");
     let (sat, at) = hover(5, 5);
     assert!(sat.contains("_sat") && at == "5:3-5:7", "{sat} {at}");
     // r0 was written by both halves of the pair, c0 by its def.
