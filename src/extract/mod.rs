@@ -213,6 +213,7 @@ pub fn open(
     bytes: Vec<u8>,
     options: &preprocess::Options<'_>,
 ) -> Result<File, TooLarge> {
+    let bytes = with_line_ends(bytes);
     let (tokens, found) = recognized(&bytes);
     if let Some(form) = tokens.filter(|form| *form != bytecode::Form::Arrays) {
         let before = sources.files().len();
@@ -256,6 +257,18 @@ pub fn open(
     })
 }
 
+/// A text whose lines end in nothing but a carriage return, as those of old Macs do, with line feeds instead; everything else
+/// as it is.
+fn with_line_ends(mut bytes: Vec<u8>) -> Vec<u8> {
+    let text = bytes.contains(&b'\r') && !bytes.contains(&b'\n');
+    if text && syntax::not_text(&bytes).is_none() {
+        for byte in bytes.iter_mut().filter(|b| **b == b'\r') {
+            *byte = b'\n';
+        }
+    }
+    bytes
+}
+
 /// Says what a file is: how tokens are written in it, and the listings that stand in it among other things.
 fn recognized(bytes: &[u8]) -> (Option<bytecode::Form>, Vec<host::Found>) {
     if syntax::begins_with_version(bytes) {
@@ -278,6 +291,7 @@ pub enum Layout {
 
 /// Lays out the listing, or the blocks of an effect, as [`syntax::format`] does.
 pub fn format(bytes: &[u8]) -> Layout {
+    let bytes = &with_line_ends(bytes.to_vec())[..];
     let (tokens, found) = recognized(bytes);
     if found.is_empty() {
         return match tokens {

@@ -73,11 +73,7 @@ pub(crate) struct Scanner {
 
 impl Scanner {
     pub(crate) fn new(text: Arc<[u8]>, base: u32, language: Language) -> Self {
-        // Some listings were cut out of programs with the NUL behind them.
-        let end = text
-            .iter()
-            .rposition(|b| *b != 0)
-            .map_or(0, |last| last + 1);
+        let end = without_nul(&text).len();
         let at = if text.starts_with(b"\xEF\xBB\xBF") {
             3
         } else {
@@ -202,6 +198,21 @@ impl Scanner {
             Some(comment) if end < rest.len() => comment.len(),
             _ => line.len(),
         }
+    }
+}
+
+/// A text without what stands behind it: some listings were cut out of programs with the NUL at their end, and a line end
+/// or the end-of-file mark of DOS came behind that.
+pub(crate) fn without_nul(bytes: &[u8]) -> &[u8] {
+    let is_end = |b: &u8| matches!(b, 0 | 0x1A) || is_blank(*b) || *b == b'\n';
+    let end = bytes
+        .iter()
+        .rposition(|b| !is_end(b))
+        .map_or(0, |at| at + 1);
+    let (text, behind) = bytes.split_at_checked(end).unwrap_or((bytes, &[]));
+    match behind.iter().position(|b| *b == 0) {
+        Some(nul) => bytes.get(..end + nul).unwrap_or(text),
+        None => bytes,
     }
 }
 

@@ -455,3 +455,31 @@ fn shaders_of_later_models_beside_others() {
     // Where there is no other, it is what is wrong with the file.
     assert_eq!(told("s = \"ps_2_0\\ndcl t0\\n\";\n"), [("P3", 1, 6)]);
 }
+
+#[test]
+fn lines_that_end_in_a_carriage_return_alone() {
+    assert_eq!(
+        told("; water\rps.1.1\rtex t0 ; base\rmul r0, t0, t4\r"),
+        [("O1", 4, 13)]
+    );
+    let laid_out = format(b"ps.1.1\rmov r0,v0\r");
+    assert_eq!(laid_out, Layout::Done(b"ps.1.1\nmov r0, v0\n".to_vec()));
+    // Not in tokens.
+    let words = [
+        0xFFFF_0101_u32,
+        0x51,
+        0xA00F_0000,
+        0x0D0D_0D0D,
+        0,
+        0,
+        0,
+        0xFFFF,
+    ];
+    let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
+    let mut sources = SourceMap::new();
+    let file = open(&mut sources, "a", bytes, &preprocess::Options::default()).unwrap();
+    let Text::Tokens(stream) = &file.shaders[0].text else {
+        panic!("tokens are expected");
+    };
+    assert_eq!(stream.words, words);
+}
