@@ -178,6 +178,10 @@ impl Context<'_> {
 
     fn fraction(&self, x: Approx) -> Option<Approx> {
         let whole = Approx::exact(x.value.floor());
+        if x == whole {
+            // However large it is: nothing is left, and nothing is rounded.
+            return Some(Approx::ZERO);
+        }
         let fraction = x.minus(whole, self.precision.rounding);
         x.whole_is_sure().then_some(fraction)
     }
