@@ -32,6 +32,7 @@ use crate::program::{Program, Register};
 use crate::rules::model;
 use listing::Listing;
 use report::Report;
+use std::collections::HashSet;
 
 /// Judges a program by the rules of a dialect. Returns every breach, by position, but of one rule no more than 100,
 /// so that a file that is no shader does not drown in them.
@@ -41,11 +42,26 @@ pub fn validate(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
     validate_around(program, dialect, &[])
 }
 
-/// Judges only what the assembler itself refused, whether it was asked to validate or not: registers that the version does
-/// not have (O1), and `+` in a vertex shader (C1). What else it never took is no text of a program.
+/// Judges only what the assembler itself refused, whether it was asked to validate or not: registers that are written and
+/// that the version does not have (O1), and `+` in a vertex shader (C1). What else it never took is no text of a program.
 pub fn assembles(program: &Program) -> Vec<Diagnostic> {
+    let missing = |r: Register| r.index >= r.file.count(program.version);
+    let mut operands: HashSet<Span> = HashSet::new();
+    for instruction in program.instructions() {
+        let destination = instruction.destination.iter();
+        let destination = destination.map(|d| (d.register, d.span));
+        let sources = instruction.sources.iter().map(|s| (s.register, s.span));
+        let all = destination.chain(sources);
+        operands.extend(all.filter(|(r, _)| missing(*r)).map(|(_, span)| span));
+    }
+    let declared = program.declarations().filter(|d| missing(d.register));
+    operands.extend(declared.map(|d| d.span));
     let mut found = validate(program, Dialect::D3d8);
-    found.retain(|d| [model::O1.id, model::C1.id].contains(&d.rule.id));
+    // The rows of a matrix that are not written are the validator's.
+    found.retain(|d| match d.rule.id {
+        id if id == model::O1.id => operands.contains(&d.span),
+        id => id == model::C1.id,
+    });
     found
 }
 
