@@ -17,6 +17,7 @@ mod condition;
 mod define;
 mod directive;
 mod expand;
+mod folders;
 mod output;
 mod resolve;
 pub(crate) mod scan;
@@ -26,6 +27,7 @@ mod token;
 mod tests;
 
 pub use define::{BadDefinition, Definition};
+pub use folders::Folders;
 pub use resolve::{Included, NoFiles, Resolver};
 
 use crate::diagnostic::{Diagnostic, Rule, SourceMap, Span};

@@ -15,6 +15,7 @@ mod report;
 mod stages;
 mod statistics;
 mod structure;
+mod unset;
 
 #[cfg(test)]
 mod tests;
@@ -23,6 +24,7 @@ pub use statistics::{
     Coordinates, FileUsage, FullPorts, PhaseSlots, PossiblePair, Stage, Statistics, Usage,
     statistics,
 };
+pub use unset::unset_constants;
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;

@@ -1,6 +1,6 @@
 //! S2 to S14: which instructions stand where, and what a shader has to write.
 
-use super::listing::{Line, Listing, Phase, version_names};
+use super::listing::{Line, Listing, Phase};
 use super::report::Report;
 use crate::isa::register::OPOS;
 use crate::isa::{Opcode, RegisterFile, Version, WriteMask};
@@ -30,7 +30,7 @@ fn instructions_exist(listing: &Listing, report: &mut Report) {
             Code::S14,
             declaration.span,
             format!("{} has no dcl", listing.version),
-            format!("{} have it", version_names(Opcode::Dcl.versions())),
+            format!("{} have it", Opcode::Dcl.versions()),
         );
     }
     for line in listing.lines.iter().filter(|l| l.form.is_none()) {
@@ -40,8 +40,8 @@ fn instructions_exist(listing: &Listing, report: &mut Report) {
         } else {
             Code::S14
         };
-        let known = version_names(opcode.versions());
-        let have = match opcode.versions().iter().count() {
+        let known = opcode.versions();
+        let have = match known.iter().count() {
             1 => "alone has",
             _ => "have",
         };
