@@ -2,13 +2,14 @@
 
 use super::given::{self, Loaded};
 use super::shaders::Reading;
-use super::{Format, Outcome, print, print_json};
+use super::{Format, Outcome, diagnostics, print, print_json};
 use serde_json::{Map, Value, json};
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, Trace, bind_constants};
 use texcrd::isa::{ShaderKind, WriteMask};
 use texcrd::kernel::{Kernel, Slot};
 use texcrd::program::{Instruction, Program};
+use texcrd::validate;
 
 /// Runs a listing once, with values set by hand, and prints its registers.
 ///
@@ -48,6 +49,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         kernel,
     } = given::load(&arguments.file, &arguments.reading)?;
     let given = given::given(&arguments.set, program.version)?;
+    let set = given.constants.iter().map(|(number, _)| *number);
+    let unset = validate::unset_constants(&program, set);
+    anstream::eprint!("{}", diagnostics::render(&sources, &unset));
     let mut machine = Machine::<1>::new();
     for input in given.inputs(&kernel) {
         let [value, ..] = input.value;
