@@ -48,7 +48,10 @@ pub(super) fn load(path: &str, dialect: Dialect) -> Result<Scene, Failure> {
     let bytes = files::read(path)?;
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
     let resolver = DirectoryResolver::new(folder);
-    let options = LoadOptions { dialect };
+    let options = LoadOptions {
+        dialect,
+        ..LoadOptions::default()
+    };
     match Scene::load(files::name(path), &bytes, &resolver, &options) {
         Ok(scene) => {
             warn(&scene);

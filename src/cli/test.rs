@@ -140,6 +140,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let folder = Path::new(path).parent().unwrap_or(Path::new(""));
         let options = LoadOptions {
             dialect: arguments.dialect,
+            ..LoadOptions::default()
         };
         let resolver = DirectoryResolver::new(folder);
         let loaded = Case::load(files::name(path), &bytes, &resolver, &options);

@@ -3,6 +3,7 @@
 use super::environment::{Environment, STAGES};
 use crate::isa::{SourceModifier, Swizzle, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::policy::Model;
 use crate::semantics::{self, Finish};
 use crate::texture::sample_quads;
 use std::ops::Range;
@@ -190,6 +191,13 @@ impl<const N: usize> Machine<N> {
                 *written = finish.apply(*computed);
             }
         }
+        if step.writes != Model::Float {
+            for c in step.mask.components() {
+                for written in &mut register[c] {
+                    *written = semantics::held(step.writes, *written);
+                }
+            }
+        }
         observer.wrote(number, &before, register);
     }
 
@@ -200,10 +208,11 @@ impl<const N: usize> Machine<N> {
         }
     }
 
-    /// What an operand reads into the slots of the mask.
+    /// What an operand reads into the slots of the mask, as numbers of a model.
     #[inline]
     fn fetch(
         &self,
+        model: Model,
         operand: &Operand,
         slots: WriteMask,
         environment: &Environment<'_>,
@@ -233,7 +242,13 @@ impl<const N: usize> Machine<N> {
             }
             Place::Literal(number) => [[number; N]; 4],
         };
-        if operand.modifier != SourceModifier::None {
+        if model != Model::Float {
+            for slot in slots.components() {
+                for number in &mut value[slot] {
+                    *number = semantics::operand(model, operand.modifier, *number);
+                }
+            }
+        } else if operand.modifier != SourceModifier::None {
             for slot in slots.components() {
                 for number in &mut value[slot] {
                     *number = semantics::modify(operand.modifier, *number);
@@ -247,7 +262,8 @@ impl<const N: usize> Machine<N> {
     fn sources(&self, step: &Step, environment: &Environment<'_>) -> [Lanes<N>; 3] {
         let mut sources = [[[0.0; N]; 4]; 3];
         for (i, (source, operand)) in sources.iter_mut().zip(&step.sources).enumerate() {
-            *source = self.fetch(operand, step.op.slots_read(i, step.mask), environment);
+            let slots = step.op.slots_read(i, step.mask);
+            *source = self.fetch(step.reads, operand, slots, environment);
         }
         sources
     }
@@ -293,7 +309,9 @@ impl<const N: usize> Machine<N> {
             }
             Op::Luminance(stage) => {
                 let state = &environment.stages[usize::from(stage) % STAGES].bump;
-                each(mask, |k, l| semantics::luminance(a[k][l], b[2][l], state))
+                each(mask, |k, l| {
+                    semantics::luminance(step.reads, a[k][l], b[2][l], state)
+                })
             }
             Op::Reflect => vector(|l| {
                 let [x, y, z] = semantics::reflect(xyz(a, l), xyz(b, l));

@@ -6,6 +6,7 @@ use crate::isa::{
     Class, FileSet, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind,
     SourceModifier, Swizzle, Version, WriteMask,
 };
+use crate::policy::Model;
 use crate::program::{Destination, Instruction, Program, Register, Source};
 
 /// What a kernel is made for, beside the shader itself.
@@ -13,6 +14,8 @@ use crate::program::{Destination, Instruction, Program, Register, Source};
 pub struct Options {
     /// `D3DTTFF_PROJECTED` of each stage; honoured by `tex`, `texbem` and `texbeml`.
     pub projection: [Projection; 8],
+    /// The numbers that a pixel shader computes with.
+    pub model: Model,
 }
 
 /// Which component divides the coordinates of a stage before it is sampled.
@@ -92,8 +95,12 @@ pub(super) struct Lowering<'a> {
     group: usize,
     /// Whether the steps of the group run side by side; those of a texture instruction follow one another.
     parallel: bool,
+    /// The numbers of the shader: floats for a vertex shader.
+    model: Model,
     /// The instruction that is being lowered.
     origin: usize,
+    /// Whether it is arithmetic.
+    arithmetic: bool,
     /// Rows that `texm3x2pad` and `texm3x3pad` have left in [`Slot::ROW`] so far.
     pub(super) rows: usize,
 }
@@ -107,7 +114,12 @@ impl<'a> Lowering<'a> {
             steps: Vec::new(),
             group: 0,
             parallel: true,
+            model: match version.kind() {
+                ShaderKind::Vertex => Model::Float,
+                ShaderKind::Pixel => options.model,
+            },
             origin: 0,
+            arithmetic: false,
             rows: 0,
         }
     }
@@ -131,15 +143,34 @@ impl<'a> Lowering<'a> {
         sources: Vec<Operand>,
         result: ResultModifier,
     ) {
+        let (reads, writes) = self.numbers(op, destination);
         self.steps.push(Step {
             op,
             destination,
             mask,
             sources,
             result,
+            reads,
+            writes,
             held: false,
             origin: self.origin,
         });
+    }
+
+    /// The numbers that a step reads and writes.
+    ///
+    /// Arithmetic has those of the model. Coordinates and what is computed of them on the way to a sample are floats under
+    /// every model. A register of the Radeon 8500 holds numbers of one kind, whoever writes them; the texture unit of the
+    /// GeForce 3 hands floats to other texture instructions, and only the combiners, which read them, round.
+    fn numbers(&self, op: Op, destination: Slot) -> (Model, Model) {
+        match (op, self.model) {
+            (Op::Kill | Op::Depth, _) => (Model::Float, Model::Float),
+            // The factor of `texbeml` takes an arithmetic slot: it is a product of the combiners.
+            (Op::Luminance(_), model) => (model, model),
+            (_, model) if self.arithmetic => (model, model),
+            (_, Model::R200) if !destination.is_internal() => (Model::Float, Model::R200),
+            _ => (Model::Float, Model::Float),
+        }
     }
 
     /// Ends the group of steps that read before any of them writes, and holds those whose result a later step of
@@ -197,6 +228,7 @@ impl<'a> Lowering<'a> {
             }
         }
         let slot = self.slot(destination.register)?;
+        self.arithmetic = form.class == Class::Arithmetic;
         match form.class {
             Class::Texture => {
                 self.parallel = false;
@@ -364,13 +396,17 @@ impl<'a> Lowering<'a> {
                 written[at] = written[at].or(step.mask);
             }
         }
+        self.arithmetic = false;
         for (set, slot) in coordinates_as_texels {
+            let (reads, writes) = self.numbers(Op::Mov, slot);
             let load = Step {
                 op: Op::Mov,
                 destination: slot,
                 mask: WriteMask::ALL,
                 sources: vec![Operand::slot(set)],
                 result: ResultModifier::NONE,
+                reads,
+                writes,
                 held: false,
                 origin: 0,
             };
@@ -385,6 +421,7 @@ impl<'a> Lowering<'a> {
             .collect();
         Kernel {
             version: self.version,
+            model: self.model,
             fog_component: scalar_component(written[Slot::FOG.index()]),
             point_size_component: scalar_component(written[Slot::POINT_SIZE.index()]),
             steps: self.steps,

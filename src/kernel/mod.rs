@@ -19,12 +19,15 @@ pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use slot::{SLOT_COUNT, Slot};
 
 use crate::isa::{ResultModifier, SourceModifier, Swizzle, Version, WriteMask};
+use crate::policy::Model;
 
 /// A shader ready to run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kernel {
     /// The version of the shader.
     pub version: Version,
+    /// The numbers that it computes with; floats for vertex shaders.
+    pub model: Model,
     /// The steps in order.
     pub steps: Vec<Step>,
     /// Constants that the shader defines itself (`def`), in order; the last of one register counts. Direct3D 8
@@ -96,6 +99,11 @@ pub struct Step {
     pub sources: Vec<Operand>,
     /// Shift and saturation of the result.
     pub result: ResultModifier,
+    /// The numbers that operands become when the step reads them, and whose source modifiers it has. Registers may hold
+    /// others: what texture instructions leave in them under [`Model::Gf3`], colours and constants.
+    pub reads: Model,
+    /// The numbers that the result becomes behind shift and saturation.
+    pub writes: Model,
     /// Whether the write waits until the next step that is not held has been computed. The halves of a co-issued
     /// pair and the rows of a matrix macro all read before any of them writes.
     pub held: bool,

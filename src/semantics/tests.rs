@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::isa::{ResultModifier, SourceModifier};
+use crate::policy::Model;
 
 const INF: f32 = f32::INFINITY;
 const NAN: f32 = f32::NAN;
@@ -186,7 +187,14 @@ fn luminance_scales_and_offsets() {
         ..Default::default()
     };
     // 0.8 · (1 · 0.5 + 0.25) = 0.6
-    assert!((luminance(0.8, 1.0, &state) - 0.6).abs() < 1e-7);
+    assert!((luminance(Model::Float, 0.8, 1.0, &state) - 0.6).abs() < 1e-7);
+    // A factor of 1 · 2 + 0.25 is clamped by the combiners: 0.8 · 1.
+    let state = BumpState {
+        luminance_scale: 2.0,
+        ..state
+    };
+    same(luminance(Model::Gf3, 0.8, 1.0, &state), 0.8);
+    assert!((luminance(Model::R200, 0.8, 1.0, &state) - 1.8).abs() < 1e-6);
 }
 
 #[test]
@@ -238,6 +246,64 @@ fn source_modifiers() {
     }
     // The float model does not clamp first: 2·(−1 − 0.5) = −3.
     same(modify(SourceModifier::Bx2, -1.0), -3.0);
+}
+
+/// Expected numbers: the rows of the specification's table of profiles, by hand.
+#[test]
+fn models_clamp_and_round() {
+    // 64.25/255 is nearest to 64/255, −64.25/255 to −64/255; halves go up.
+    same(held(Model::Gf3, 64.25 / 255.0), 64.0 / 255.0);
+    same(held(Model::Gf3, -64.25 / 255.0), -64.0 / 255.0);
+    same(held(Model::Gf3, 0.5), 128.0 / 255.0);
+    same(held(Model::Gf3, -0.5), -127.0 / 255.0);
+    // The lowest code, −256/255, lies below −1.
+    same(held(Model::Gf3, -1.0039), -1.0);
+    same(held(Model::Gf3, INF), 1.0);
+    same(held(Model::Gf3, NAN), 0.0);
+    same(held(Model::Gf3, -0.0), 0.0);
+    same(held(Model::R200, 9.0), 8.0);
+    same(held(Model::R200, -INF), -8.0);
+    // 0.3 · 4096 = 1228.8
+    same(held(Model::R200, 0.3), 1229.0 / 4096.0);
+    same(held(Model::R200, 1e-4), 0.0);
+    for x in [0.3, -7.0, INF, -0.0] {
+        same(held(Model::Float, x), x);
+    }
+}
+
+#[test]
+fn what_lies_on_a_step_stays_there() {
+    for (model, steps, most) in [(Model::Gf3, 255, 255), (Model::R200, 4096, 8 * 4096)] {
+        for code in -most..=most {
+            let x = code as f32 / steps as f32;
+            same(held(model, x), x);
+        }
+    }
+}
+
+/// The mappings of the combiners, by hand from their formulas.
+#[test]
+fn combiners_clamp_before_they_map() {
+    use SourceModifier::*;
+    for (modifier, x, expected) in [
+        // 1 − max(0, −0.502) = 1; 1 − 51/255 = 0.8
+        (Complement, -0.5, 1.0),
+        (Complement, 0.2, 0.8),
+        // 2 · max(0, −1) − 1 = −1, where floats have −3
+        (Bx2, -1.0, -1.0),
+        (Bx2Negate, -1.0, 1.0),
+        (Bx2, 1.0, 1.0),
+        (Bias, -1.0, -0.5),
+        (BiasNegate, -1.0, 0.5),
+        (Negate, 2.0, -1.0),
+        (None, 2.0, 1.0),
+    ] {
+        same(operand(Model::Gf3, modifier, x), expected);
+    }
+    // The Radeon 8500 maps as it stands: 2 · (−1 − 0.5) = −3.
+    same(operand(Model::R200, Bx2, -1.0), -3.0);
+    same(operand(Model::R200, Complement, -0.5), 1.5);
+    same(operand(Model::Float, Complement, -0.5), 1.5);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Operations that look at several components at once.
 
-use super::scalar::{BIG, exp, log, mul, partial_precision};
+use super::scalar::{BIG, exp, log, mul, partial_precision, saturate};
+use crate::policy::Model;
 
 /// s0.x·s1.x + s0.y·s1.y + s0.z·s1.z, summed from left to right.
 #[inline(always)]
@@ -111,11 +112,13 @@ pub fn bump(s0: [f32; 2], s1: [f32; 2], state: &BumpState) -> [f32; 2] {
     ]
 }
 
-/// s0 · (luminance · scale + offset): what `texbeml` does to every component of its sample.
+/// s0 · (luminance · scale + offset): what `texbeml` does to every component of its sample. Combiners clamp the factor to
+/// 0…1.
 #[inline(always)]
-pub fn luminance(s0: f32, luminance: f32, state: &BumpState) -> f32 {
-    mul(
-        s0,
-        mul(luminance, state.luminance_scale) + state.luminance_offset,
-    )
+pub fn luminance(model: Model, s0: f32, luminance: f32, state: &BumpState) -> f32 {
+    let factor = mul(luminance, state.luminance_scale) + state.luminance_offset;
+    match model {
+        Model::Gf3 => mul(s0, saturate(factor)),
+        Model::Float | Model::R200 => mul(s0, factor),
+    }
 }

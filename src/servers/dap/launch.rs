@@ -111,7 +111,15 @@ impl Loaded {
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolver = DirectoryResolver::new(folder);
-        let scene = Scene::load(&name, &read(path)?, &resolver, &LoadOptions { dialect });
+        let scene = Scene::load(
+            &name,
+            &read(path)?,
+            &resolver,
+            &LoadOptions {
+                dialect,
+                ..LoadOptions::default()
+            },
+        );
         let scene = scene.map_err(|error| refused(&name, error.sources, error.diagnostics))?;
         Ok(Self {
             arguments,
