@@ -32,7 +32,7 @@ macro_rules! named {
         $($variant:ident $name:literal $about:literal,)*
     ) => {
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum $type {
             #[doc = $first_about]
             #[default]

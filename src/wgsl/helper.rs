@@ -1,6 +1,7 @@
 //! The functions that a translation may need, as they stand in it.
 
 use super::number::{LARGEST, SMALLEST_NORMAL};
+use crate::policy::Model;
 use std::collections::BTreeSet;
 
 /// A function, or a family of functions that differ in their number of components. What another one calls stands
@@ -28,12 +29,29 @@ pub(super) enum Helper {
     InsidePoint,
     CubeFace,
     OnFace,
-    SampleFaces,
-    SampleFacesBias,
-    SampleFacesLevelZero,
+    /// A cube whose faces are filtered one by one; `coarse`: with weights of 8 bits.
+    SampleFaces {
+        detail: Detail,
+        coarse: bool,
+    },
+    /// Where a filter in so many dimensions has weights of 8 bits.
+    OnStep(usize),
+    /// Numbers of a model, vectors with this many components.
+    Held(Model, usize),
     LinearFog,
     FogFactor,
     Address,
+}
+
+/// How the level of detail of a sample is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Detail {
+    /// From the coordinates.
+    Plain,
+    /// From the coordinates and a bias.
+    Bias,
+    /// It is level 0.
+    LevelZero,
 }
 
 impl Helper {
@@ -61,9 +79,18 @@ impl Helper {
             Self::InsidePoint => "inside_point".into(),
             Self::CubeFace => "cube_face".into(),
             Self::OnFace => "on_face".into(),
-            Self::SampleFaces => "sample_faces".into(),
-            Self::SampleFacesBias => "sample_faces_bias".into(),
-            Self::SampleFacesLevelZero => "sample_faces_level_zero".into(),
+            Self::SampleFaces { detail, coarse } => {
+                let detail = match detail {
+                    Detail::Plain => "",
+                    Detail::Bias => "_bias",
+                    Detail::LevelZero => "_level_zero",
+                };
+                let coarse = if coarse { "_coarse" } else { "" };
+                format!("sample_faces{detail}{coarse}")
+            }
+            Self::OnStep(width) => format!("on_step{width}"),
+            Self::Held(model, 1) => model.name().into(),
+            Self::Held(model, width) => format!("{model}_vec{width}"),
             Self::LinearFog => "linear_fog".into(),
             Self::FogFactor => "fog_factor".into(),
             Self::Address => "address".into(),
@@ -77,8 +104,12 @@ impl Helper {
             Self::ExpP => vec![Self::PartialPrecision],
             Self::LogP => vec![Self::Log2, Self::PartialPrecision],
             Self::Lit => vec![Self::Log2],
-            Self::SampleFaces | Self::SampleFacesBias | Self::SampleFacesLevelZero => {
-                vec![Self::CubeFace, Self::OnFace]
+            Self::SampleFaces { coarse, .. } => {
+                let snap = coarse.then_some(Self::OnStep(2));
+                [Self::CubeFace, Self::OnFace]
+                    .into_iter()
+                    .chain(snap)
+                    .collect()
             }
             _ => Vec::new(),
         }
@@ -146,9 +177,9 @@ impl Helper {
             Self::InsidePoint => INSIDE_POINT.into(),
             Self::CubeFace => CUBE_FACE.into(),
             Self::OnFace => ON_FACE.into(),
-            Self::SampleFaces => sample_faces(false),
-            Self::SampleFacesBias => sample_faces(true),
-            Self::SampleFacesLevelZero => SAMPLE_FACES_LEVEL_ZERO.into(),
+            Self::SampleFaces { detail, coarse } => sample_faces(&self.name(), detail, coarse),
+            Self::OnStep(width) => on_step(&self.name(), width),
+            Self::Held(model, width) => held(&self.name(), model, width),
             Self::LinearFog => LINEAR_FOG.into(),
             Self::FogFactor => FOG_FACTOR.into(),
             Self::Address => ADDRESS.into(),
@@ -279,34 +310,71 @@ fn linear_fog(distance: f32, start: f32, end: f32) -> f32 {
 }
 ";
 
-const SAMPLE_FACES_LEVEL_ZERO: &str = "\
-// Level 0 of a cube as Direct3D 8 filters it, each face for itself.
-fn sample_faces_level_zero(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f) -> vec4f {
-    let face = cube_face(direction);
-    return textureSampleLevel(faces, clamped, on_face(face, direction), face, 0.0);
-}
-";
-
-fn sample_faces(bias: bool) -> String {
-    let (name, parameter, dx, dy, about) = if bias {
-        (
-            "sample_faces_bias",
-            ", bias: f32",
-            "exp2(bias) * (dx - at)",
-            "exp2(bias) * (dy - at)",
-            " with a bias of the level of detail",
-        )
+fn sample_faces(name: &str, detail: Detail, coarse: bool) -> String {
+    let (parameter, about) = match detail {
+        Detail::Plain => ("", ""),
+        Detail::Bias => (", bias: f32", " with a bias of the level of detail"),
+        Detail::LevelZero => ("", ", level 0"),
+    };
+    let scale = if detail == Detail::Bias {
+        "exp2(bias) * "
     } else {
-        ("sample_faces", "", "dx - at", "dy - at", "")
+        ""
+    };
+    let place = if coarse {
+        "on_step2(at, textureDimensions(faces))"
+    } else {
+        "at"
+    };
+    let (steps, call, last) = match detail {
+        Detail::LevelZero => (String::new(), "textureSampleLevel", "0.0".to_string()),
+        Detail::Plain | Detail::Bias => {
+            let step =
+                |d: char| format!("    let d{d} = on_face(face, direction + dpd{d}(direction));\n");
+            let of = |d: char| match scale {
+                "" => format!("d{d} - at"),
+                scale => format!("{scale}(d{d} - at)"),
+            };
+            let steps = ['x', 'y'].map(step).concat();
+            (steps, "textureSampleGrad", ['x', 'y'].map(of).join(", "))
+        }
     };
     format!(
         "// A cube as Direct3D 8 filters it, each face for itself{about}.\n\
          fn {name}(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f{parameter}) -> vec4f {{\n    \
              let face = cube_face(direction);\n    \
-             let at = on_face(face, direction);\n    \
-             let dx = on_face(face, direction + dpdx(direction));\n    \
-             let dy = on_face(face, direction + dpdy(direction));\n    \
-             return textureSampleGrad(faces, clamped, at, face, {dx}, {dy});\n}}\n"
+             let at = on_face(face, direction);\n\
+             {steps}    \
+             return {call}(faces, clamped, {place}, face, {last});\n}}\n"
+    )
+}
+
+fn on_step(name: &str, width: usize) -> String {
+    format!(
+        "// The nearest place where a linear filter of a texture of this size has weights of whole 1/256.\n\
+         fn {name}(at: vec{width}f, size: vec{width}u) -> vec{width}f {{\n    \
+             let texels = vec{width}f(size);\n    \
+             return (floor((at * texels - 0.5) * 256.0 + 0.5) / 256.0 + 0.5) / texels;\n}}\n"
+    )
+}
+
+fn held(name: &str, model: Model, width: usize) -> String {
+    let (of, steps) = (model.most(), model.steps().unwrap_or(1.0));
+    let (kind, least, greatest) = match width {
+        1 => ("f32".to_string(), format!("-{of:?}"), format!("{of:?}")),
+        _ => {
+            let kind = format!("vec{width}f");
+            (
+                kind.clone(),
+                format!("{kind}(-{of:?})"),
+                format!("{kind}({of:?})"),
+            )
+        }
+    };
+    format!(
+        "// x as the registers of {model} hold it: -{of} to {of} in steps of 1/{steps}.\n\
+         fn {name}(x: {kind}) -> {kind} {{\n    \
+             return floor(clamp(x, {least}, {greatest}) * {steps:?} + 0.5) / {steps:?};\n}}\n"
     )
 }
 

@@ -53,6 +53,7 @@ mod layout;
 mod listing;
 mod magnitude;
 mod number;
+mod operand;
 mod operation;
 mod options;
 mod pixel;
