@@ -201,9 +201,9 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
     root.finish(problems);
     let options = Options {
         projection,
-        model: files.options.model,
+        ..files.lowering()
     };
-    let vertex = vertex.lowered(&Options::default(), problems)?;
+    let vertex = vertex.lowered(&files.lowering(), problems)?;
     let pixel = pixel.lowered(&options, problems)?;
     no_depth(&invocations, &scope, pixel.as_ref(), &places, problems);
     Some(Draft {

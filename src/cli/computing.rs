@@ -2,7 +2,7 @@
 
 use texcrd::isa::Version;
 use texcrd::kernel;
-use texcrd::policy::{Dialect, Model};
+use texcrd::policy::{Dialect, Model, Policies, Policy, WrongPolicy};
 use texcrd::program::Program;
 use texcrd::scene::{LoadOptions, Scene};
 
@@ -13,6 +13,8 @@ pub(super) struct Computing {
     /// or r200 (Radeon 8500, steps of 1/4096 from -8 to 8). docs/models.md says more.
     #[arg(long, value_name = "MODEL", default_value_t)]
     model: Model,
+    #[command(flatten)]
+    choices: Choices,
 }
 
 /// The same for commands that put several models side by side.
@@ -23,17 +25,73 @@ pub(super) struct Several {
     /// docs/models.md says more.
     #[arg(long = "model", value_name = "MODEL", value_delimiter = ',', default_values_t = [Model::default()])]
     models: Vec<Model>,
+    #[command(flatten)]
+    choices: Choices,
+}
+
+/// Numeric choices.
+#[derive(clap::Args)]
+struct Choices {
+    #[arg(long = "policy", value_name = "NAME=VALUE", value_parser = setting, help = settings())]
+    settings: Vec<String>,
+}
+
+/// What can be set, the default first.
+fn settings() -> String {
+    let settings: Vec<String> = Policy::all()
+        .map(|policy| {
+            let values: Vec<&str> = policy.values().iter().map(|value| value.name).collect();
+            format!("{}={}", policy.name, values.join("|"))
+        })
+        .collect();
+    format!(
+        "What instructions do where documents and hardware did not agree: {}. The first is what is done without; \
+         docs/models.md says more. May be given several times",
+        settings.join(", ")
+    )
+}
+
+/// The value parser of `--policy`: a setting that can be made.
+fn setting(text: &str) -> Result<String, WrongPolicy> {
+    Policies::default().set(text).map(|()| text.to_string())
+}
+
+impl Choices {
+    fn policies(&self) -> Policies {
+        let mut policies = Policies::default();
+        for setting in &self.settings {
+            // They have been looked at when they were read.
+            let _ = policies.set(setting);
+        }
+        policies
+    }
+
+    fn lowering(&self, model: Model) -> kernel::Options {
+        kernel::Options {
+            model,
+            policies: self.policies(),
+            ..kernel::Options::default()
+        }
+    }
+
+    fn loading(&self, model: Model, dialect: Dialect) -> LoadOptions {
+        LoadOptions {
+            dialect,
+            model,
+            policies: self.policies(),
+        }
+    }
 }
 
 impl Computing {
     /// What a listing that stands by itself is lowered with.
     pub(super) fn lowering(&self) -> kernel::Options {
-        lowering(self.model)
+        self.choices.lowering(self.model)
     }
 
     /// What a scene or a case is loaded with.
     pub(super) fn loading(&self, dialect: Dialect) -> LoadOptions {
-        loading(self.model, dialect)
+        self.choices.loading(self.model, dialect)
     }
 
     /// The hardware model.
@@ -56,24 +114,13 @@ impl Several {
 
     /// As [`Computing::lowering`], for one of the models.
     pub(super) fn lowering(&self, model: Model) -> kernel::Options {
-        lowering(model)
+        self.choices.lowering(model)
     }
 
     /// As [`Computing::loading`], for one of the models.
     pub(super) fn loading(&self, model: Model, dialect: Dialect) -> LoadOptions {
-        loading(model, dialect)
+        self.choices.loading(model, dialect)
     }
-}
-
-fn lowering(model: Model) -> kernel::Options {
-    kernel::Options {
-        model,
-        ..kernel::Options::default()
-    }
-}
-
-fn loading(model: Model, dialect: Dialect) -> LoadOptions {
-    LoadOptions { dialect, model }
 }
 
 /// Says that a shader runs with numbers that its version never had.

@@ -46,7 +46,6 @@ pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
 pub(super) fn load(path: &str, options: &LoadOptions) -> Result<Scene, Failure> {
     let scene = load_again(path, options)?;
     warn(&scene);
-    computing::note_scene(options.model, &scene);
     Ok(scene)
 }
 
@@ -56,7 +55,10 @@ pub(super) fn load_again(path: &str, options: &LoadOptions) -> Result<Scene, Fai
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
     let resolver = DirectoryResolver::new(folder);
     match Scene::load(files::name(path), &bytes, &resolver, options) {
-        Ok(scene) => Ok(scene),
+        Ok(scene) => {
+            computing::note_scene(options.model, &scene);
+            Ok(scene)
+        }
         Err(error) => {
             anstream::eprint!(
                 "{}",

@@ -3,7 +3,7 @@
 use super::environment::{Environment, STAGES};
 use crate::isa::{SourceModifier, Swizzle, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
-use crate::policy::Model;
+use crate::policy::{Model, Policies, ZeroProduct};
 use crate::semantics::{self, Finish};
 use crate::texture::sample_quads;
 use std::ops::Range;
@@ -156,7 +156,7 @@ impl<const N: usize> Machine<N> {
                 observer.killed(number, &self.killed);
                 continue;
             }
-            let result = Self::compute(step, &sources, environment);
+            let result = Self::compute(&kernel.policies, step, &sources, environment);
             observer.computed(number, &sources, &result);
             if step.held && waiting < MOST_HELD {
                 held[waiting] = (number, result);
@@ -270,16 +270,24 @@ impl<const N: usize> Machine<N> {
 
     /// The result of a step before it is finished. Components outside of the mask may hold anything.
     #[inline]
-    fn compute(step: &Step, sources: &[Lanes<N>; 3], environment: &Environment<'_>) -> Lanes<N> {
+    fn compute(
+        policies: &Policies,
+        step: &Step,
+        sources: &[Lanes<N>; 3],
+        environment: &Environment<'_>,
+    ) -> Lanes<N> {
         let mask = step.mask;
         let [a, b, c] = sources;
         match step.op {
             Op::Mov => *a,
             Op::Add => each(mask, |k, l| a[k][l] + b[k][l]),
             Op::Sub => each(mask, |k, l| a[k][l] - b[k][l]),
-            Op::Mul => each(mask, |k, l| semantics::mul(a[k][l], b[k][l])),
-            Op::Mad => each(mask, |k, l| semantics::mad(a[k][l], b[k][l], c[k][l])),
-            Op::Lrp => each(mask, |k, l| semantics::lrp(a[k][l], b[k][l], c[k][l])),
+            Op::Mul | Op::Mad | Op::Lrp | Op::Dp3 | Op::Dp4 | Op::Lit | Op::Dst => {
+                match policies.zero_product {
+                    ZeroProduct::Zero => products::<N, false>(step, sources),
+                    ZeroProduct::Ieee => products::<N, true>(step, sources),
+                }
+            }
             Op::Min => each(mask, |k, l| semantics::min(a[k][l], b[k][l])),
             Op::Max => each(mask, |k, l| semantics::max(a[k][l], b[k][l])),
             Op::Slt => each(mask, |k, l| semantics::slt(a[k][l], b[k][l])),
@@ -288,16 +296,12 @@ impl<const N: usize> Machine<N> {
             Op::Floor => each(mask, |k, l| semantics::address(a[k][l])),
             Op::Cnd => each(mask, |k, l| semantics::cnd(a[k][l], b[k][l], c[k][l])),
             Op::Cmp => each(mask, |k, l| semantics::cmp(a[k][l], b[k][l], c[k][l])),
-            Op::Dp3 => replicate(|l| semantics::dp3(xyz(a, l), xyz(b, l))),
-            Op::Dp4 => replicate(|l| semantics::dp4(xyzw(a, l), xyzw(b, l))),
-            Op::Rcp => replicate(|l| semantics::rcp(a[0][l])),
-            Op::Rsq => replicate(|l| semantics::rsq(a[0][l])),
+            Op::Rcp => replicate(|l| semantics::rcp(policies.of_zero, a[0][l])),
+            Op::Rsq => replicate(|l| semantics::rsq(policies.of_zero, a[0][l])),
             Op::Exp => replicate(|l| semantics::exp(a[0][l])),
-            Op::Log => replicate(|l| semantics::log(a[0][l])),
+            Op::Log => replicate(|l| semantics::log(policies.of_zero, a[0][l])),
             Op::ExpP => vector(|l| semantics::expp(a[0][l])),
-            Op::LogP => vector(|l| semantics::logp(a[0][l])),
-            Op::Lit => vector(|l| semantics::lit(xyzw(a, l))),
-            Op::Dst => vector(|l| semantics::dst(xyzw(a, l), xyzw(b, l))),
+            Op::LogP => vector(|l| semantics::logp(policies.of_zero, a[0][l])),
             Op::DivideZ => vector(|l| divided(xyzw(a, l), a[2][l])),
             Op::DivideW => vector(|l| divided(xyzw(a, l), a[3][l])),
             Op::Bump(stage) => {
@@ -327,6 +331,23 @@ impl<const N: usize> Machine<N> {
             Op::Depth => vector(|l| [semantics::depth(a[0][l], a[1][l]), 0.0, 0.0, 0.0]),
             Op::Kill => [[0.0; N]; 4],
         }
+    }
+}
+
+/// The operations that are made of products.
+#[inline]
+fn products<const N: usize, const IEEE: bool>(step: &Step, sources: &[Lanes<N>; 3]) -> Lanes<N> {
+    use semantics::{dp3, dp4, dst, lit, lrp, mad, product};
+    let mask = step.mask;
+    let [a, b, c] = sources;
+    match step.op {
+        Op::Mad => each(mask, |k, l| mad::<IEEE>(a[k][l], b[k][l], c[k][l])),
+        Op::Lrp => each(mask, |k, l| lrp::<IEEE>(a[k][l], b[k][l], c[k][l])),
+        Op::Dp3 => replicate(|l| dp3::<IEEE>(xyz(a, l), xyz(b, l))),
+        Op::Dp4 => replicate(|l| dp4::<IEEE>(xyzw(a, l), xyzw(b, l))),
+        Op::Lit => vector(|l| lit::<IEEE>(xyzw(a, l))),
+        Op::Dst => vector(|l| dst::<IEEE>(xyzw(a, l), xyzw(b, l))),
+        _ => each(mask, |k, l| product::<IEEE>(a[k][l], b[k][l])),
     }
 }
 

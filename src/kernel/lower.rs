@@ -6,7 +6,7 @@ use crate::isa::{
     Class, FileSet, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind,
     SourceModifier, Swizzle, Version, WriteMask,
 };
-use crate::policy::Model;
+use crate::policy::{LogpLayout, Model, Policies};
 use crate::program::{Destination, Instruction, Program, Register, Source};
 
 /// What a kernel is made for, beside the shader itself.
@@ -16,6 +16,8 @@ pub struct Options {
     pub projection: [Projection; 8],
     /// The numbers that a pixel shader computes with.
     pub model: Model,
+    /// What instructions do where documents and hardware did not agree.
+    pub policies: Policies,
 }
 
 /// Which component divides the coordinates of a stage before it is sampled.
@@ -277,7 +279,10 @@ impl<'a> Lowering<'a> {
             Opcode::Exp => Op::Exp,
             Opcode::Log => Op::Log,
             Opcode::ExpP => Op::ExpP,
-            Opcode::LogP => Op::LogP,
+            Opcode::LogP => match self.options.policies.logp {
+                LogpLayout::Parts => Op::LogP,
+                LogpLayout::Logarithm => Op::Log,
+            },
             Opcode::Bem => Op::Bump(stage(destination.register.index as usize)),
             other => return Err(format!("{} is no arithmetic", other.mnemonic())),
         };
@@ -292,8 +297,8 @@ impl<'a> Lowering<'a> {
 
     /// Operands of which an instruction uses one component only read that component in every slot.
     ///
-    /// Scalar instructions take the w slot of the swizzled source: the pseudo-code of the DirectX 8 documents does,
-    /// and shipped programs relied on it. `cnd` before `ps.1.4` takes the alpha of `r0`.
+    /// Scalar instructions take the w slot of the swizzled source, unless the policy says otherwise: the pseudo-code of the
+    /// DirectX 8 documents does, and shipped programs relied on it. `cnd` before `ps.1.4` takes the alpha of `r0`.
     fn spread(
         &self,
         instruction: &Instruction,
@@ -303,7 +308,11 @@ impl<'a> Lowering<'a> {
     ) -> Operand {
         if form.slots_read(i, WriteMask::NONE) == WriteMask::W && instruction.opcode != Opcode::Dp4
         {
-            operand.swizzle = Swizzle::replicate(operand.swizzle.slot(3) as u8);
+            let slot = match self.version.kind() {
+                ShaderKind::Vertex => self.options.policies.scalar.slot(),
+                ShaderKind::Pixel => 3,
+            };
+            operand.swizzle = Swizzle::replicate(operand.swizzle.slot(slot) as u8);
         }
         operand
     }
@@ -422,6 +431,7 @@ impl<'a> Lowering<'a> {
         Kernel {
             version: self.version,
             model: self.model,
+            policies: self.options.policies,
             fog_component: scalar_component(written[Slot::FOG.index()]),
             point_size_component: scalar_component(written[Slot::POINT_SIZE.index()]),
             steps: self.steps,

@@ -19,7 +19,7 @@ pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use slot::{SLOT_COUNT, Slot};
 
 use crate::isa::{ResultModifier, SourceModifier, Swizzle, Version, WriteMask};
-use crate::policy::Model;
+use crate::policy::{Model, Policies};
 
 /// A shader ready to run.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,10 +28,12 @@ pub struct Kernel {
     pub version: Version,
     /// The numbers that it computes with; floats for vertex shaders.
     pub model: Model,
+    /// The numeric choices that it was lowered with. [`Policies::scalar`] and [`Policies::logp`] are in its steps already.
+    pub policies: Policies,
     /// The steps in order.
     pub steps: Vec<Step>,
     /// Constants that the shader defines itself (`def`), in order; the last of one register counts. Direct3D 8
-    /// loads them when the shader is set, so that constants set later replace them.
+    /// loads them when the shader is set, so that constants set later replace them, unless [`Policies::def`] says otherwise.
     pub definitions: Vec<(u32, [f32; 4])>,
     /// Slots that hold a fixed value before the first step: temporaries 0, outputs what Direct3D 8 gives
     /// outputs that are never written.
@@ -193,7 +195,7 @@ pub enum Op {
     Dp3,
     /// Four-component dot product in every component
     Dp4,
-    /// 1 / s0.x in every component
+    /// 1 / s0.x in every component; of 0 as [`Policies::of_zero`] says, as for the next ones
     Rcp,
     /// 1 / √|s0.x| in every component
     Rsq,

@@ -1,9 +1,14 @@
 //! Choices that a person makes about how a listing is judged and run, as plain values.
 
 mod named;
+mod numeric;
 
 pub use named::UnknownName;
 use named::named;
+pub use numeric::{
+    DefLifetime, LogpLayout, OfZero, Policies, Policy, PolicyValue, ScalarSlot, WrongPolicy,
+    ZeroProduct,
+};
 
 named! {
     /// By whose rules a listing is judged.

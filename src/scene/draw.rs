@@ -132,11 +132,11 @@ pub(super) fn read(
             Some(stage) if stage.projected => Projection::Fourth,
             _ => Projection::None,
         }),
-        model: files.options.model,
+        ..files.lowering()
     };
     let (vertex, pixel) = (vertex?, pixel?);
     let declaration = declared.unwrap_or_else(|| default_declaration(&vertex.value));
-    let lowered_vertex = shader::lowered(&vertex, &Options::default(), problems);
+    let lowered_vertex = shader::lowered(&vertex, &files.lowering(), problems);
     let lowered_pixel = shader::lowered(&pixel, &options, problems);
     let (vertex_shader, pixel_shader) = (lowered_vertex?, lowered_pixel?);
     for (register, attribute) in declaration.iter().enumerate() {

@@ -8,6 +8,7 @@ use super::error::{Problems, rules};
 use super::resolve::Resolver;
 use super::section::At;
 use crate::diagnostic::{SourceMap, Span};
+use crate::kernel;
 use crate::mesh::Mesh;
 use crate::program::Program;
 use crate::texture::{Signed, Texture, Weights};
@@ -38,6 +39,15 @@ impl<'r> Files<'r> {
             programs: HashMap::new(),
             texels: 0,
             vertices: 0,
+        }
+    }
+
+    /// What shaders are lowered with, whatever their texture stages are.
+    pub(crate) fn lowering(&self) -> kernel::Options {
+        kernel::Options {
+            model: self.options.model,
+            policies: self.options.policies,
+            ..kernel::Options::default()
         }
     }
 

@@ -1,7 +1,7 @@
 //! The functions that a translation may need, as they stand in it.
 
 use super::number::{LARGEST, SMALLEST_NORMAL};
-use crate::policy::Model;
+use crate::policy::{Model, OfZero};
 use std::collections::BTreeSet;
 
 /// A function, or a family of functions that differ in their number of components. What another one calls stands
@@ -14,13 +14,14 @@ pub(super) enum Helper {
     Dot(usize),
     /// The same with [`Helper::MulZero`].
     DotZero(usize),
-    Rcp,
-    Rsq,
-    Log2,
+    Infinity,
+    Rcp(OfZero),
+    Rsq(OfZero),
+    Log2(OfZero),
     PartialPrecision,
     ExpP,
-    LogP,
-    Lit,
+    LogP(OfZero),
+    Lit(OfZero),
     Divide,
     Mirror,
     /// Relative addressing of this many constants.
@@ -65,13 +66,14 @@ impl Helper {
             Self::MulZero(width) => counted("mul_zero", width),
             Self::Dot(width) => counted("dp", width),
             Self::DotZero(width) => format!("dp{width}_zero"),
-            Self::Rcp => "rcp".into(),
-            Self::Rsq => "rsq".into(),
-            Self::Log2 => "log2_abs".into(),
+            Self::Infinity => "infinity".into(),
+            Self::Rcp(_) => "rcp".into(),
+            Self::Rsq(_) => "rsq".into(),
+            Self::Log2(_) => "log2_abs".into(),
             Self::PartialPrecision => "partial_precision".into(),
             Self::ExpP => "expp".into(),
-            Self::LogP => "logp".into(),
-            Self::Lit => "lit".into(),
+            Self::LogP(_) => "logp".into(),
+            Self::Lit(_) => "lit".into(),
             Self::Divide => "divide".into(),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
@@ -102,8 +104,11 @@ impl Helper {
         match self {
             Self::DotZero(width) => vec![Self::MulZero(width)],
             Self::ExpP => vec![Self::PartialPrecision],
-            Self::LogP => vec![Self::Log2, Self::PartialPrecision],
-            Self::Lit => vec![Self::Log2],
+            Self::LogP(of_zero) => vec![Self::Log2(of_zero), Self::PartialPrecision],
+            Self::Lit(of_zero) => vec![Self::Log2(of_zero)],
+            Self::Rcp(OfZero::Infinity)
+            | Self::Rsq(OfZero::Infinity)
+            | Self::Log2(OfZero::Infinity) => vec![Self::Infinity],
             Self::SampleFaces { coarse, .. } => {
                 let snap = coarse.then_some(Self::OnStep(2));
                 [Self::CubeFace, Self::OnFace]
@@ -137,31 +142,39 @@ impl Helper {
                      if index < 0 || index >= {count} {{\n        return vec4f();\n    }}\n    \
                      return vs.c[index];\n}}\n"
             ),
-            Self::Rcp => format!(
-                "// 1 / x; the largest number where x is 0.\n\
+            Self::Infinity => INFINITY.into(),
+            Self::Rcp(of_zero) => format!(
+                "// 1 / x; {} where x is 0.\n\
                  fn rcp(x: f32) -> f32 {{\n    \
-                     return select(1.0 / x, {LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+                     return select(1.0 / x, {}, abs(x) < {SMALLEST_NORMAL});\n}}\n",
+                words(of_zero),
+                number_of(of_zero),
             ),
-            Self::Rsq => format!(
-                "// 1 / √|x|; the largest number where x is 0.\n\
+            Self::Rsq(of_zero) => format!(
+                "// 1 / √|x|; {} where x is 0.\n\
                  fn rsq(x: f32) -> f32 {{\n    \
-                     return select(inverseSqrt(abs(x)), {LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+                     return select(inverseSqrt(abs(x)), {}, abs(x) < {SMALLEST_NORMAL});\n}}\n",
+                words(of_zero),
+                number_of(of_zero),
             ),
-            Self::Log2 => format!(
-                "// log2 |x|; the smallest number where x is 0.\n\
+            Self::Log2(of_zero) => format!(
+                "// log2 |x|; minus {} where x is 0.\n\
                  fn log2_abs(x: f32) -> f32 {{\n    \
-                     return select(log2(abs(x)), -{LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+                     return select(log2(abs(x)), -{}, abs(x) < {SMALLEST_NORMAL});\n}}\n",
+                words(of_zero),
+                number_of(of_zero),
             ),
-            Self::LogP => format!(
+            Self::LogP(of_zero) => format!(
                 "// Exponent and mantissa of |x|, log2 |x| in partial precision, 1.\n\
                  fn logp(x: f32) -> vec4f {{\n    \
                      let v = abs(x);\n    \
-                     if v < {SMALLEST_NORMAL} {{\n        return vec4f(-{LARGEST}, 1.0, -{LARGEST}, 1.0);\n    }}\n    \
+                     if v < {SMALLEST_NORMAL} {{\n        return vec4f(-{least}, 1.0, -{least}, 1.0);\n    }}\n    \
                      let bits = bitcast<u32>(v);\n    \
                      if bits >= 0x7f800000u {{\n        return vec4f(v, select(1.0, v, bits > 0x7f800000u), v, 1.0); // infinity and NaN\n    }}\n    \
                      let exponent = f32(i32(bits >> 23u) - 127);\n    \
                      let mantissa = bitcast<f32>((bits & 0x007fffffu) | 0x3f800000u);\n    \
-                     return vec4f(exponent, mantissa, partial_precision(log2_abs(v)), 1.0);\n}}\n"
+                     return vec4f(exponent, mantissa, partial_precision(log2_abs(v)), 1.0);\n}}\n",
+                least = number_of(of_zero),
             ),
             Self::ExpP => format!(
                 "// 2 to the power of ⌊x⌋, x - ⌊x⌋, 2 to the power of x in partial precision, 1.\n\
@@ -170,7 +183,7 @@ impl Helper {
                      return vec4f(exp2(floor(x)), fraction, partial_precision(exp2(x)), 1.0);\n}}\n"
             ),
             Self::PartialPrecision => PARTIAL_PRECISION.into(),
-            Self::Lit => LIT.into(),
+            Self::Lit(_) => LIT.into(),
             Self::Divide => DIVIDE.into(),
             Self::Mirror => MIRROR.into(),
             Self::InsideLinear => INSIDE_LINEAR.into(),
@@ -184,6 +197,22 @@ impl Helper {
             Self::FogFactor => FOG_FACTOR.into(),
             Self::Address => ADDRESS.into(),
         }
+    }
+}
+
+/// What stands for infinity where 0 is divided by, in words.
+fn words(of_zero: OfZero) -> &'static str {
+    match of_zero {
+        OfZero::Largest => "the largest number",
+        OfZero::Infinity => "infinity",
+    }
+}
+
+/// The same as WGSL.
+fn number_of(of_zero: OfZero) -> &'static str {
+    match of_zero {
+        OfZero::Largest => LARGEST,
+        OfZero::Infinity => "infinity()",
     }
 }
 
@@ -203,6 +232,14 @@ fn mul_zero(name: &str, width: usize) -> String {
              return select(a * b, {zero}, (a == {zero}) {or} (b == {zero}));\n}}\n"
     )
 }
+
+const INFINITY: &str = "\
+// Infinity, which no expression of constants may be.
+fn infinity() -> f32 {
+    var bits = 0x7f800000u;
+    return bitcast<f32>(bits);
+}
+";
 
 const PARTIAL_PRECISION: &str = "\
 // x without its eight lowest bits.

@@ -9,7 +9,7 @@
 use super::Options;
 use crate::isa::{ResultModifier, ShaderKind, SourceModifier, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
-use crate::policy::Model;
+use crate::policy::{Model, Policies, ZeroProduct};
 use std::collections::BTreeMap;
 
 /// A number that may be infinite or NaN.
@@ -41,6 +41,7 @@ struct Factor {
 #[derive(Clone, Debug)]
 pub(super) struct Magnitudes {
     kind: ShaderKind,
+    policies: Policies,
     /// The components that hold numbers of the shader's hardware model, by slot.
     held: [WriteMask; SLOT_COUNT],
     most: [[f64; 4]; SLOT_COUNT],
@@ -85,6 +86,7 @@ impl Magnitudes {
         }
         Self {
             kind,
+            policies: kernel.policies,
             held,
             most,
             writes: [[0; 4]; SLOT_COUNT],
@@ -141,7 +143,7 @@ impl Magnitudes {
     /// Whether a step needs products that are guarded against a factor of 0.
     pub(super) fn needs_guard(&self, step: &Step) -> bool {
         // Fixed-point numbers are finite.
-        if step.reads != Model::Float {
+        if step.reads != Model::Float || self.policies.zero_product == ZeroProduct::Ieee {
             return false;
         }
         let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
@@ -250,11 +252,11 @@ impl Magnitudes {
             Op::Floor => a,
             Op::Dp3 => dot(3),
             Op::Dp4 => dot(4),
-            Op::Rcp | Op::Rsq | Op::Log if scalar < UNBOUNDED => LARGEST,
+            Op::Rcp | Op::Rsq | Op::Log if scalar < UNBOUNDED => self.of_zero(),
             Op::Rcp | Op::Rsq | Op::Log => UNBOUNDED,
             Op::Exp => scalar.exp2(),
             Op::ExpP => [scalar.exp2(), 1.0, scalar.exp2(), 1.0][component],
-            Op::LogP if scalar < UNBOUNDED => [LARGEST, 2.0, LARGEST, 1.0][component],
+            Op::LogP if scalar < UNBOUNDED => [self.of_zero(), 2.0, self.of_zero(), 1.0][component],
             Op::LogP => UNBOUNDED,
             Op::Lit => [1.0, scalar, self.specular(step), 1.0][component],
             Op::Dst => [1.0, product(of(0, 1), of(1, 1)), of(0, 2), of(1, 3)][component],
@@ -263,6 +265,11 @@ impl Magnitudes {
             Op::Sample(stage) => self.texels[usize::from(stage) & 7],
             Op::DivideZ | Op::DivideW | Op::Reflect | Op::Kill => UNBOUNDED,
         }
+    }
+
+    /// The magnitude of a reciprocal or a logarithm of 0.
+    fn of_zero(&self) -> f64 {
+        self.policies.of_zero.value().into()
     }
 
     /// The bound of the specular term of `lit`: finite where the power is known not to be negative.

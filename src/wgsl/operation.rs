@@ -22,6 +22,7 @@ impl Body<'_> {
         let one = |body: &mut Self, i: usize, slot: usize| {
             body.operand(step, i, WriteMask::component(slot))
         };
+        let of_zero = self.stage.kernel.policies.of_zero;
         let guard = self.magnitudes.needs_guard(step);
         let whole = match step.op {
             Op::Mov => source(self, 0),
@@ -70,26 +71,26 @@ impl Body<'_> {
             Op::Dp4 => self.dot(step, guard, 4),
             Op::Rcp => {
                 let x = source(self, 0);
-                self.called(Helper::Rcp, &[x], 1)
+                self.called(Helper::Rcp(of_zero), &[x], 1)
             }
             Op::Rsq => {
                 let x = source(self, 0);
-                self.called(Helper::Rsq, &[x], 1)
+                self.called(Helper::Rsq(of_zero), &[x], 1)
             }
             Op::Log => {
                 let x = source(self, 0);
-                self.called(Helper::Log2, &[x], 1)
+                self.called(Helper::Log2(of_zero), &[x], 1)
             }
             Op::Exp => source(self, 0).map("exp2"),
             Op::ExpP => return self.partial_powers(step),
             Op::LogP => {
                 let x = source(self, 0);
-                let all = self.called(Helper::LogP, &[x], 4);
+                let all = self.called(Helper::LogP(of_zero), &[x], 4);
                 components(&all, mask)
             }
             Op::Lit => {
                 let arguments = [one(self, 0, 0), one(self, 0, 1), one(self, 0, 3)];
-                let all = self.called(Helper::Lit, &arguments, 4);
+                let all = self.called(Helper::Lit(of_zero), &arguments, 4);
                 components(&all, mask)
             }
             Op::Dst => {

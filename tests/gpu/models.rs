@@ -120,7 +120,7 @@ fn both_paths_agree_on_steps() {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         f64::from(state >> 8) / f64::from(1 << 24)
     };
-    let ps_1_2 = "ps.1.2\\ntexcoord t0\\ntexcoord t1\\nmad_x2 r0, t0, v0, -v1\\nmul r1, r0_bx2, 1-t1\\nlrp r0, v0, r1, r0_bias\\ndp3_d2 t1.rgb, r0, r1_bx2\\ncmp r0, r1, t1, r0\\nadd r0, r0, c0";
+    let ps_1_2 = "ps.1.2\\ntexcoord t0\\ntexcoord t1\\nmad_x2 r0, t0, v0, -v1\\nmul r1, r0_bx2, 1-t1\\nlrp r0, v0, r1, r0_bias\\ndp3_d2 t1.rgb, r0, r1_bx2\\ncmp t0, r1, t1, r0\\nadd r0, t0, c0";
     let ps_1_4 = "ps.1.4\\ntexcrd r0.rgb, t0\\ntexcrd r1.rgb, t1\\nphase\\nmov r0.a, v0\\nmov r1.a, v1\\nmad_x8 r2, r0, r1_bx2, -v1\\nmul_d4 r3, r2_x2, 1-r1\\nlrp r0, v0, r2, r3_bias\\ndp4 r4, r0, r2\\nadd r0, r4, r0\\ncnd r0, r0, r2, r3";
     for (listing, constants) in [(ps_1_2, "c0"), (ps_1_4, "c1")] {
         let mut text = format!("ps = \"{}\"\n", listing);
