@@ -55,7 +55,7 @@ fn register_exists(
     }
     let version = listing.version;
     let count = register.file.count(version);
-    if register.file == RegisterFile::Addr && version == Version::Vs10 {
+    if register.file == RegisterFile::Addr && register.index == 0 && version == Version::Vs10 {
         report.breach(
             Code::O4,
             span,

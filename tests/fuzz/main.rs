@@ -28,7 +28,9 @@ impl Findings {
         let result = catch_unwind(AssertUnwindSafe(|| what(&input)));
         let taken = start.elapsed();
         if result.is_err() || taken > LONGEST {
-            self.0.push(format!("seed {seed} in {taken:?}: {input:?}"));
+            let finding = format!("seed {seed} in {taken:?}: {input:?}");
+            eprintln!("{finding}");
+            self.0.push(finding);
         }
         result.unwrap_or_default()
     }
