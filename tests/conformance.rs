@@ -10,6 +10,8 @@ use texcrd::isa::{Opcode, Version};
 use texcrd::scene::Shader;
 use texcrd::{bytecode, syntax};
 
+#[path = "conformance/coverage/mod.rs"]
+mod coverage;
 #[path = "conformance/suite.rs"]
 mod suite;
 

@@ -5,6 +5,8 @@ use super::rules;
 use super::{Declaration, HEX_LINE, MOST_TOKENS, to_hex};
 use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};
 use crate::isa::Version;
+use crate::preprocess::scan::without_nul;
+use crate::syntax;
 
 /// How tokens are written in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,8 +56,7 @@ pub struct Input {
 
 /// Says how tokens are written in a file; `None` if it holds none: a listing, or something else.
 pub fn recognize(bytes: &[u8]) -> Option<Form> {
-    // Text in UTF-16 is no stream.
-    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+    if syntax::is_utf16(bytes) {
         return None;
     }
     if is_binary(bytes) {
@@ -76,11 +77,7 @@ fn is_binary(bytes: &[u8]) -> bool {
     let version = bytes
         .first_chunk()
         .is_some_and(|b| is_version(u32::from_le_bytes(*b)));
-    let end = bytes
-        .iter()
-        .rposition(|b| *b != 0)
-        .map_or(0, |last| last + 1);
-    let text = bytes.get(..end).unwrap_or(bytes);
+    let text = without_nul(bytes);
     version || text.contains(&0) || (text.is_empty() && !bytes.is_empty())
 }
 

@@ -64,6 +64,8 @@ pub use decode::{Decoded, decode};
 pub use disassemble::{Disassembly, disassemble};
 pub use encode::encode;
 pub use input::{Form, Input, Stream, StreamKind, read, recognize};
+pub use macros::Macro;
+pub(crate) use macros::register_named;
 
 use crate::rules::tokens as rules;
 

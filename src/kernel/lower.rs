@@ -463,5 +463,5 @@ pub(super) fn stage(index: usize) -> u8 {
 
 /// The divide modifiers belong to coordinates; arithmetic has none of them.
 fn is_divide(modifier: SourceModifier) -> bool {
-    matches!(modifier, SourceModifier::Dz | SourceModifier::Dw)
+    modifier.row().divides.is_some()
 }

@@ -39,9 +39,14 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Gives an enum its names: parsing (any case), printing.
+/// Gives an enum its names: parsing (any case), printing, the list of its members.
 macro_rules! names {
     ($type:ty, $what:literal, $($variant:ident $name:literal),*) => {
+        impl $type {
+            /// Every member, in the order of the Direct3D numbers.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
+        }
+
         impl std::str::FromStr for $type {
             type Err = $crate::texture::UnknownName;
 

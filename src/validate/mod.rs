@@ -15,15 +15,21 @@ mod report;
 mod stages;
 mod statistics;
 mod structure;
+mod uses;
 
 #[cfg(test)]
 mod tests;
 
-pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
+pub use statistics::{
+    Coordinates, FileUsage, FullPorts, PhaseSlots, PossiblePair, SlotUse, Stage, Statistics, Usage,
+    slots, statistics,
+};
+pub use uses::{Use, UseKind, origins, uses};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
 use crate::program::{Program, Register};
+use crate::rules::model;
 use listing::Listing;
 use report::Report;
 
@@ -33,6 +39,14 @@ use report::Report;
 /// The time is linear in the length of the program. A program without an error can be lowered and run.
 pub fn validate(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
     validate_around(program, dialect, &[])
+}
+
+/// Judges only what the assembler itself refused, whether it was asked to validate or not: registers that the version does
+/// not have (O1), and `+` in a vertex shader (C1). What else it never took is no text of a program.
+pub fn assembles(program: &Program) -> Vec<Diagnostic> {
+    let mut found = validate(program, Dialect::D3d8);
+    found.retain(|d| [model::O1.id, model::C1.id].contains(&d.rule.id));
+    found
 }
 
 /// Judges a program of which some statements could not be read.

@@ -7,6 +7,7 @@ mod compare;
 mod debug;
 mod dis;
 mod eval;
+mod explain;
 mod generate;
 mod hosts;
 mod pictures;
