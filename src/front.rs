@@ -75,7 +75,8 @@ impl fmt::Display for Report {
 
 impl std::error::Error for Report {}
 
-/// Reads a listing: its preprocessor and its grammar, not the rules of the shader model.
+/// Reads a listing: directives, grammar, and whether the version has its instructions and registers. The other rules of
+/// the shader model are left to [`validate`].
 ///
 /// ```
 /// let program = texcrd::parse("ps.1.4\ntexld r0, t0\nmul r0.rgb, r0, c1 ; tinted")?;
@@ -238,8 +239,9 @@ mod tests {
 
     #[test]
     fn only_the_text_counts_for_parse() {
-        // r9 does not exist, which is none of the grammar's business.
-        let program = parse("ps.1.1\nmov r0, r9").unwrap();
+        // r1 is read and nothing has been written to it, which is the validator's business.
+        let program = parse("ps.1.1\nmov r0, r1").unwrap();
+        assert!(!validate("ps.1.1\nmov r0, r1", Dialect::D3d8).is_accepted());
         assert_eq!(program.instructions().count(), 1);
         assert!(told(parse("ps.1.1\nfoo r0")).starts_with("2:1: error[P8]"));
         assert!(told(parse("")).contains("error[S1]"));

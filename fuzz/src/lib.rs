@@ -13,7 +13,7 @@ use texcrd::generate::Random;
 
 fn seeds() -> &'static Seeds {
     static SEEDS: OnceLock<Seeds> = OnceLock::new();
-    SEEDS.get_or_init(Seeds::new)
+    SEEDS.get_or_init(Seeds::default)
 }
 
 /// How many of a hundred inputs libFuzzer changes itself, with what it has learned of the branches.

@@ -8,7 +8,7 @@ use super::files::Files;
 use super::resolve::Resolver;
 use super::section::{At, Section};
 use crate::diagnostic::{Diagnostic, Rule, Span, TooLarge, any_error};
-use crate::extract;
+use crate::extract::{self, Text};
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Options, lower};
 use crate::listing::{self, Checked};
@@ -188,8 +188,11 @@ fn only_shader(
     let mut checked = extract::check(sources, shader, options).map_err(told)?;
     checked.diagnostics.splice(0..0, file.diagnostics);
     if checked.program.is_none() && !any_error(&checked.diagnostics) {
-        let message = format!("{name}: this is a vertex declaration, no shader");
-        return Err((&rules::SHADER, message));
+        let what = match shader.text {
+            Text::Tokens(_) => "this is a vertex declaration, no shader",
+            Text::Listing { .. } => "lines of it may be macros of a file that could not be read",
+        };
+        return Err((&rules::SHADER, format!("{name}: {what}")));
     }
     Ok(checked)
 }

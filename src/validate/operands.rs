@@ -80,7 +80,7 @@ fn register_exists(
     if !report.misses(register) {
         return false;
     }
-    if register.file == RegisterFile::Addr && version == Version::Vs10 {
+    if register.file == RegisterFile::Addr && register.index == 0 && version == Version::Vs10 {
         report.breach(
             Code::O4,
             span,

@@ -28,7 +28,9 @@ impl Findings {
         let result = catch_unwind(AssertUnwindSafe(|| what(&input)));
         let taken = start.elapsed();
         if result.is_err() || taken > LONGEST {
-            self.0.push(format!("seed {seed} in {taken:?}: {input:?}"));
+            let finding = format!("seed {seed} in {taken:?}: {input:?}");
+            eprintln!("{finding}");
+            self.0.push(finding);
         }
         result.unwrap_or_default()
     }
@@ -51,7 +53,7 @@ impl Debug for Listing {
 
 #[track_caller]
 fn listings(seeds: Range<u64>) -> Seen {
-    let (known, mut findings) = (Seeds::new(), Findings::default());
+    let (known, mut findings) = (Seeds::default(), Findings::default());
     let mut seen = Seen::default();
     for seed in seeds {
         let text = Listing(mutate::text(&mut Random::new(seed), &known));
@@ -64,7 +66,7 @@ fn listings(seeds: Range<u64>) -> Seen {
 /// How many of the streams are valid.
 #[track_caller]
 fn streams(seeds: Range<u64>) -> usize {
-    let (known, mut findings) = (Seeds::new(), Findings::default());
+    let (known, mut findings) = (Seeds::default(), Findings::default());
     let mut valid = 0;
     for seed in seeds {
         let words = mutate::stream(&mut Random::new(seed), &known);
@@ -77,7 +79,7 @@ fn streams(seeds: Range<u64>) -> usize {
 /// What is mutated is as good as it is said to be: without that, mutants would all be refused at their first line.
 #[test]
 fn seeds_are_accepted() {
-    let known = Seeds::new();
+    let known = Seeds::default();
     let refused: Vec<_> = (known.texts.iter())
         .filter(|text| judge::file(text).accepted == 0)
         .map(|text| String::from_utf8_lossy(text))
@@ -106,7 +108,7 @@ fn mutated_streams() {
 /// Streams in the forms in which files have them.
 #[test]
 fn mutated_streams_in_files() {
-    let (known, mut findings) = (Seeds::new(), Findings::default());
+    let (known, mut findings) = (Seeds::default(), Findings::default());
     for seed in 0..60 {
         let words = mutate::stream(&mut Random::new(seed), &known);
         let (bytes, text) = (bytecode::to_bytes(&words), bytecode::to_hex(&words));

@@ -15,9 +15,9 @@ pub struct Seeds {
     pub streams: Vec<Vec<u32>>,
 }
 
-impl Seeds {
+impl Default for Seeds {
     /// The same seeds every time.
-    pub fn new() -> Self {
+    fn default() -> Self {
         let mut texts: Vec<Vec<u8>> = TEXTS.iter().map(|text| text.as_bytes().to_vec()).collect();
         texts.push(SCANNED.to_vec());
         let mut streams: Vec<Vec<u32>> = vec![STREAM.to_vec(), DECLARATION.to_vec()];

@@ -232,3 +232,30 @@ fn a_case_with_a_file_of_several_shaders() {
         ran.err
     );
 }
+
+/// A line that may be a macro of a file that is not there: `check` lets it pass, but half a shader has no tokens.
+#[test]
+fn half_a_shader_has_no_tokens() {
+    let effect = b"#include \"common.fxh\"\ntechnique T { pass P { VertexShader = asm {\n\
+                   vs.1.1\nTRANSFORM\nmov oD0, v5\n}; } }\n";
+    let ran = texcrd_with_input(&["check", "-"], effect);
+    assert_eq!(ran.status, 0, "{}", ran.out);
+    for part in ["warning[P28]", "warning[P33]", "<stdin>:4:1"] {
+        assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
+    }
+    for command in [
+        &["asm", "-", "--hex"][..],
+        &["eval", "-"],
+        &["translate", "-"],
+    ] {
+        let ran = texcrd_with_input(command, effect);
+        assert_eq!((ran.status, ran.out.as_str()), (1, ""), "{command:?}");
+        assert!(ran.err.contains("P33"), "{command:?}: {}", ran.err);
+    }
+    // With what is missing it is whole.
+    let ran = texcrd_with_input(
+        &["asm", "-", "--hex", "-D", "TRANSFORM=mov oPos, v0"],
+        effect,
+    );
+    assert_eq!(ran.status, 0, "{}", ran.err);
+}
