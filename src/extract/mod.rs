@@ -13,10 +13,13 @@
 //! the file.
 
 mod host;
+mod repair;
 mod string;
 
 #[cfg(test)]
 mod tests;
+
+pub use repair::repair;
 
 use crate::bytecode::{self, Declaration, Stream, StreamKind};
 use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};
@@ -293,9 +296,10 @@ pub fn format(bytes: &[u8]) -> Layout {
     if found.is_empty() {
         return match tokens {
             Some(_) => Layout::Nothing("these are tokens; `dis` makes a listing of them"),
-            None if syntax::not_text(bytes).is_some() || bytes.len() > SourceMap::MAX_BYTES => {
-                Layout::Nothing("this is no listing")
+            None if bytes.len() > SourceMap::MAX_BYTES => {
+                Layout::Nothing("this is longer than a listing can be")
             }
+            None if syntax::not_text(bytes).is_some() => Layout::Nothing("this is no listing"),
             None if syntax::is_source(bytes) => Layout::Nothing("no listing stands in it"),
             None => Layout::Done(syntax::format(bytes)),
         };
@@ -448,7 +452,7 @@ pub fn check(
         }
         Text::Tokens(stream) => stream,
     };
-    let made = bytecode::disassemble(stream, sources)?;
+    let made = bytecode::disassemble(stream, None, sources)?;
     let mut checked = Checked {
         program: None,
         diagnostics: made.diagnostics,

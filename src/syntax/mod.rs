@@ -39,7 +39,7 @@ pub use printer::{print, print_instruction};
 pub(crate) use prologue::{begins_with_version, is_utf16, not_text};
 pub use unread::unread;
 
-use crate::diagnostic::{Diagnostic, SourceFile, Span};
+use crate::diagnostic::{Diagnostic, SourceFile, Span, TooLarge};
 use crate::isa::Version;
 use crate::preprocess::scan::without_nul;
 use crate::program::{Program, Register, Statement};
@@ -78,6 +78,11 @@ pub struct Damage {
     pub span: Span,
     /// The register that it seems to write.
     pub destination: Option<Register>,
+}
+
+/// What is said of a text that is too long for a listing. It is not among the sources, so it has no place.
+pub(crate) fn too_long(error: &TooLarge) -> Diagnostic {
+    Diagnostic::error(&rules::NOT_A_LISTING, Span::default(), error.to_string())
 }
 
 /// Reads a listing that begins with its version.

@@ -101,6 +101,8 @@ impl Parser<'_> {
                 }
                 *reported = true;
                 self.skip_line();
+                // It will stand somewhere behind the version.
+                self.damage(self.span_from(first), None);
             }
         }
         self.at = version;

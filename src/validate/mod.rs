@@ -1,7 +1,7 @@
 //! The rules of the runtime: what a shader may not hold, and why.
 //!
 //! A rule is a function in the file of its group; the facts it compares with are rows of [`crate::isa`]. How
-//! severe a breach is in which [`Dialect`] stands in one table, in `laws`. Every breach is found in one pass over
+//! severe a breach is in which [`Dialect`] stands in one table, in [`crate::rules`]. Every breach is found in one pass over
 //! the program, and one fault is named once, where it shows first.
 
 mod budgets;
@@ -15,11 +15,18 @@ mod report;
 mod stages;
 mod statistics;
 mod structure;
+mod unset;
+mod uses;
 
 #[cfg(test)]
 mod tests;
 
-pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
+pub use statistics::{
+    Coordinates, FileUsage, FullPorts, PhaseSlots, PossiblePair, SlotUse, Stage, Statistics, Usage,
+    slots, statistics,
+};
+pub use unset::unset_constants;
+pub use uses::{Use, UseKind, origins, uses};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;

@@ -17,7 +17,7 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
         for line in group {
             halves_fit &= instruction_fits(listing, line, report);
         }
-        if let ([first, second], true) = (group, halves_fit) {
+        if let ([first, second], true) = (group, halves_fit && listing.is_pixel()) {
             pair_fits(listing, first, second, report);
         }
     }
@@ -47,18 +47,11 @@ fn instruction_fits(listing: &Listing, line: &Line, report: &mut Report) -> bool
     let reads = line.reads();
     let rows = line.form.map_or(1, |form| form.rows.max(1));
     let mut fits = true;
-    for file in RegisterFile::all() {
-        let ports = file.read_ports(listing.version) as usize;
-        let Some(code) = code(file, listing.version) else {
+    for (file, ports, code) in bounded(listing) {
+        let mut found = (0..rows).map(|row| read_by_row(line, &reads, row, file));
+        let Some(over) = found.find(|found| found.len() > ports) else {
             continue;
         };
-        // Each row of a matrix is an instruction of its own, which reads row 0 operands and its own matrix row.
-        let over = (0..rows).find_map(|row| {
-            let matrix_row = |r: &&Read| r.row == row || is_vector_of_matrix(line, r);
-            let found = distinct(reads.iter().filter(matrix_row), file);
-            (found.len() > ports).then_some(found)
-        });
-        let Some(over) = over else { continue };
         fits = false;
         let span = over.get(ports).map_or(line.instruction.span, |o| o.1);
         let row = if rows > 1 { "a row of " } else { "" };
@@ -77,6 +70,61 @@ fn instruction_fits(listing: &Listing, line: &Line, report: &mut Report) -> bool
         );
     }
     fits
+}
+
+/// The files whose ports can run out, with how many of their registers one instruction reads.
+fn bounded(listing: &Listing) -> impl Iterator<Item = (RegisterFile, usize, Code)> {
+    let version = listing.version;
+    RegisterFile::all().filter_map(move |file| {
+        let code = code(file, version)?;
+        Some((file, file.read_ports(version) as usize, code))
+    })
+}
+
+/// The registers of a file that a row of a line reads. Each row of a matrix is an instruction of its own, which reads
+/// the vector and its own row.
+fn read_by_row(line: &Line, reads: &[Read], row: u32, file: RegisterFile) -> Vec<(Register, Span)> {
+    let of_row = |r: &&Read| r.row == row || is_vector_of_matrix(line, r);
+    distinct(reads.iter().filter(of_row), file)
+}
+
+/// The files of which an instruction reads as many registers as it may, with how many these are.
+pub(super) fn full_of_instruction(listing: &Listing, line: &Line) -> Vec<(RegisterFile, usize)> {
+    let reads = line.reads();
+    let rows = line.form.map_or(1, |form| form.rows.max(1));
+    let full = |(file, ports, _): &(RegisterFile, usize, Code)| {
+        (0..rows).any(|row| read_by_row(line, &reads, row, *file).len() == *ports)
+    };
+    let files = bounded(listing).filter(full);
+    files.map(|(file, ports, _)| (file, ports)).collect()
+}
+
+/// The files of which the halves of a pair read as many registers as they may together.
+pub(super) fn full_of_pair(
+    listing: &Listing,
+    first: &Line,
+    second: &Line,
+) -> Vec<(RegisterFile, usize)> {
+    let files = read_by_pair(listing, first, second);
+    let full = files.filter(|(_, found)| found.len() == PORTS_OF_A_PAIR);
+    full.map(|(file, _)| (file, PORTS_OF_A_PAIR)).collect()
+}
+
+/// Whether the halves of a pair read no more registers than they may together.
+pub(super) fn pair_is_within(listing: &Listing, first: &Line, second: &Line) -> bool {
+    read_by_pair(listing, first, second).all(|(_, found)| found.len() <= PORTS_OF_A_PAIR)
+}
+
+/// The registers that a pair reads, by file. Files that have no more registers than ports are left out.
+fn read_by_pair(
+    listing: &Listing,
+    first: &Line,
+    second: &Line,
+) -> impl Iterator<Item = (RegisterFile, Vec<(Register, Span)>)> {
+    let reads: Vec<Read> = first.reads().into_iter().chain(second.reads()).collect();
+    let version = listing.version;
+    let files = RegisterFile::all().filter(move |f| f.count(version) as usize > PORTS_OF_A_PAIR);
+    files.map(move |file| (file, distinct(reads.iter(), file)))
 }
 
 /// Whether a read is the vector that every row of a matrix macro multiplies.
@@ -124,9 +172,7 @@ fn code(file: RegisterFile, version: Version) -> Option<Code> {
 
 /// R11.
 fn pair_fits(listing: &Listing, first: &Line, second: &Line, report: &mut Report) {
-    let (a, b) = (first.reads(), second.reads());
-    for file in RegisterFile::all() {
-        let found = distinct(a.iter().chain(&b), file);
+    for (file, found) in read_by_pair(listing, first, second) {
         let Some((_, span)) = found.get(PORTS_OF_A_PAIR) else {
             continue;
         };

@@ -125,7 +125,15 @@ fn an_effect_is_preprocessed_as_a_whole() {
     assert!(found.contains(&("P16", 11, 15)), "{found:?}");
     // If a file is missing, which may define it, there is none.
     let found = told(&format!("#include \"consts.h\"\n{EFFECT}"));
-    assert_eq!(found, [("P28", 1, 10), ("O1", 23, 21), ("P10", 30, 2)]);
+    assert_eq!(
+        found,
+        [
+            ("P28", 1, 10),
+            ("P33", 12, 5),
+            ("O1", 23, 21),
+            ("P10", 30, 2)
+        ]
+    );
 }
 
 #[test]
