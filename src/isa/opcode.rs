@@ -209,10 +209,17 @@ impl Opcode {
 
     /// The opcode with this mnemonic, in any case of letters.
     pub fn from_mnemonic(mnemonic: &str) -> Option<Self> {
-        OPCODES
-            .iter()
-            .find(|row| row.mnemonic.eq_ignore_ascii_case(mnemonic))
-            .map(|row| row.opcode)
+        if mnemonic.len() > LONGEST_MNEMONIC {
+            return None;
+        }
+        let mut slot = first_slot(mnemonic.as_bytes());
+        loop {
+            let row = OPCODES.get(usize::from(*BY_MNEMONIC.get(slot)?))?;
+            if row.mnemonic.eq_ignore_ascii_case(mnemonic) {
+                return Some(row.opcode);
+            }
+            slot = (slot + 1) % SLOTS;
+        }
     }
 
     /// The opcode with this token number in this version.
@@ -227,12 +234,11 @@ impl Opcode {
     /// The opcode that this token number stands for in a shader of this version, whether the version has it or not:
     /// a number that only one opcode has can mean nothing else.
     pub fn meant_by(token: u16, version: Version) -> Option<Self> {
-        let mut all = OPCODES.iter().filter(|row| row.token == token);
-        let only = match (all.next(), all.next()) {
-            (Some(only), None) => Some(only.opcode),
-            _ => None,
-        };
-        Self::from_token(token, version).or(only)
+        Self::from_token(token, version).or_else(|| {
+            let mut all = OPCODES.iter().filter(|row| row.token == token);
+            let first = all.next().filter(|_| all.next().is_none());
+            first.map(|only| only.opcode)
+        })
     }
 }
 
@@ -553,3 +559,49 @@ static OPCODES: [OpcodeRow; 54] = [
         "d.rg = s0.rg + bump matrix of stage d * s1.rg").costs(2, 0).at_most(1)]),
     op(Opcode::Phase, "phase", 0xFFFD, &[bare(PS14, Class::Phase, "ends the first phase").at_most(1)]),
 ];
+
+// --- mnemonics by a hash, so that a word is compared with one or two of them and not with all ---
+
+/// How many slots [`BY_MNEMONIC`] has: more than twice as many as there are mnemonics, so that few share one.
+const SLOTS: usize = 128;
+
+/// Stands in [`BY_MNEMONIC`] where no mnemonic does; no row has this number.
+const EMPTY: u8 = u8::MAX;
+
+/// The length of the longest mnemonic.
+const LONGEST_MNEMONIC: usize = {
+    let (mut longest, mut i) = (0, 0);
+    while i < OPCODES.len() {
+        let length = OPCODES[i].mnemonic.len();
+        if length > longest {
+            longest = length;
+        }
+        i += 1;
+    }
+    longest
+};
+
+/// The slot in which the search for a mnemonic begins; the same for letters of either case.
+const fn first_slot(mnemonic: &[u8]) -> usize {
+    let (mut hash, mut i) = (0u32, 0);
+    while i < mnemonic.len() {
+        hash = hash.wrapping_mul(33) ^ (mnemonic[i] | 0x20) as u32;
+        i += 1;
+    }
+    (hash ^ hash >> 7) as usize % SLOTS
+}
+
+/// The numbers of the rows, each in the first slot from that of its mnemonic on which was free.
+static BY_MNEMONIC: [u8; SLOTS] = {
+    let mut slots = [EMPTY; SLOTS];
+    let mut row = 0;
+    while row < OPCODES.len() {
+        let mut slot = first_slot(OPCODES[row].mnemonic.as_bytes());
+        while slots[slot] != EMPTY {
+            slot = (slot + 1) % SLOTS;
+        }
+        slots[slot] = row as u8;
+        row += 1;
+    }
+    slots
+};

@@ -144,8 +144,15 @@ impl RegisterFile {
 
     /// The file of a token's register type in a shader of this kind.
     pub fn from_code(code: u8, kind: ShaderKind) -> Option<Self> {
-        let of_kind = |file: &RegisterFile| file.versions().iter().any(|v| v.kind() == kind);
-        Self::all().filter(of_kind).find(|f| f.row().code == code)
+        let of_code = |file: &RegisterFile| file.row().code == code;
+        Self::all()
+            .filter(of_code)
+            .find(|file| file.exists_in(kind))
+    }
+
+    /// Whether a version of this kind has the file.
+    pub fn exists_in(self, kind: ShaderKind) -> bool {
+        Version::all().any(|v| v.kind() == kind && self.count(v) > 0)
     }
 
     /// The name of register `index` of this file as listings write it: `r3`, `a0`, `oPos`, `oT2`.
@@ -171,13 +178,22 @@ impl RegisterFile {
         if let Some(i) = RAST_OUT.iter().position(|n| n.eq_ignore_ascii_case(name)) {
             return Some((Self::RastOut, i as u32));
         }
-        let files = Self::all().filter(|file| *file != Self::RastOut);
-        files.into_iter().find_map(|file| {
-            let (letters, digits) = name.split_at_checked(file.row().prefix.len())?;
-            let fits = letters.eq_ignore_ascii_case(file.row().prefix)
-                && digits.bytes().all(|b| b.is_ascii_digit());
-            Some((file, digits.parse().ok().filter(|_| fits)?))
-        })
+        let (file, digits) = Self::parts(name)?;
+        Some((file, digits.parse().ok()?))
+    }
+
+    /// The file of the registers that begin with the letters of this name, in either case, and the digits behind
+    /// them, which may be none. `None` if it is not letters of a file with digits alone behind them.
+    pub fn parts(name: &str) -> Option<(Self, &str)> {
+        let digit = name.bytes().position(|b| b.is_ascii_digit());
+        let (letters, digits) = name.split_at_checked(digit.unwrap_or(name.len()))?;
+        let fits =
+            |file: &Self| *file != Self::RastOut && file.row().prefix.eq_ignore_ascii_case(letters);
+        let file = Self::all().find(fits)?;
+        digits
+            .bytes()
+            .all(|b| b.is_ascii_digit())
+            .then_some((file, digits))
     }
 
     /// The set that holds only this file.

@@ -3,14 +3,16 @@
 //! Bytes, not characters: comments of the time are in legacy code pages. White space and comments are dropped; each
 //! token knows whether it begins a line, because lines help to recover from damage though the grammar has none.
 
+use super::names::Stem;
 use super::report::{Reports, quote};
 use super::{comment, rules};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::program::Comment;
 use nom::branch::alt;
-use nom::bytes::complete::{tag, take_till, take_until, take_while, take_while1};
+use nom::bytes::complete::{tag, tag_no_case, take_until, take_while, take_while1};
 use nom::character::complete::{digit0, digit1, one_of};
-use nom::combinator::{map, opt, recognize, value};
+use nom::combinator::{map, map_opt, opt, recognize, rest, value};
+use nom::number::complete::u8 as byte;
 use nom::{IResult, Parser};
 
 /// What a token is.
@@ -48,6 +50,8 @@ pub(super) struct Token {
     pub(super) line: u32,
     /// Whether it is the first of its line.
     pub(super) first: bool,
+    /// What it names, if it is a word.
+    pub(super) stem: Stem,
 }
 
 /// The tokens of a text, whatever is wrong with it.
@@ -68,6 +72,11 @@ pub(super) struct Lexed {
 /// More tokens than the largest text of instructions that any version takes, by far; bounds the memory.
 const MOST_TOKENS: usize = 1 << 20;
 
+/// How long a word or sign is with the white space behind it, roughly, in a listing with some comments; and how many
+/// tokens room is made for at once, so that a long comment does not take any.
+const BYTES_A_TOKEN: usize = 4;
+const FIRST_TOKENS: usize = 256;
+
 /// The first tokens of a text, `most` or one more.
 pub(super) fn lex_some(text: &[u8], most: usize, reports: &mut Reports) -> Vec<Token> {
     lex_up_to(text, 0, most, reports).tokens
@@ -87,7 +96,7 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
         directives: Vec::new(),
         comments: Vec::new(),
     };
-    let mut tokens = Vec::new();
+    let mut tokens = Vec::with_capacity((text.len() / BYTES_A_TOKEN).min(FIRST_TOKENS));
     let mut rest = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut first = true;
     loop {
@@ -101,6 +110,7 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
             end,
             line: lexer.line,
             first,
+            stem: Stem::NONE,
         };
         // `token` fails only at the end of the text.
         let Ok((after, kind)) = any_token(rest) else {
@@ -124,7 +134,11 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
                 .push(Diagnostic::error(&rules::NOT_A_LISTING, span, message));
             break;
         }
-        tokens.push(token(kind, lexer.offset(after)));
+        let mut token = token(kind, lexer.offset(after));
+        if kind == Kind::Word {
+            token.stem = Stem::of(rest.get(..rest.len() - after.len()).unwrap_or(rest));
+        }
+        tokens.push(token);
         rest = after;
         first = false;
     }
@@ -156,28 +170,33 @@ impl<'a> Lexer<'a, '_> {
         // Whether a line that begins with `;@` continues the last comment of the tokens.
         let mut open = false;
         loop {
-            let before = rest.len();
-            rest = space(rest).map_or(rest, |(after, _)| after);
-            if let Some(after) = rest.strip_prefix(b"\n") {
-                self.line += 1;
-                rest = after;
-                new_line = true;
-                first = true;
-            } else if let Ok((after, text)) = line_comment(rest) {
-                open = self.token_comment(text, self.offset(rest), open);
-                rest = after;
-            } else if rest.starts_with(b"/*") {
-                let after = self.block_comment(rest);
-                let lines = rest[..rest.len() - after.len()].iter();
-                let lines = lines.filter(|b| **b == b'\n').count() as u32;
-                self.line += lines;
-                new_line |= lines > 0;
-                first |= lines > 0;
-                rest = after;
-            } else if first && rest.starts_with(b"#") {
-                rest = self.directive(rest);
-            } else if rest.len() == before {
-                return (rest, new_line);
+            // The first byte says what can stand here.
+            match rest {
+                [b'\n', after @ ..] => {
+                    self.line += 1;
+                    rest = after;
+                    new_line = true;
+                    first = true;
+                }
+                [b';', ..] | [b'/', b'/', ..] => {
+                    let (after, text) = to_line_end(rest).unwrap_or((&[], rest));
+                    open = self.token_comment(text, self.offset(rest), open);
+                    rest = after;
+                }
+                [b'/', b'*', ..] => {
+                    let after = self.block_comment(rest);
+                    let lines = rest[..rest.len() - after.len()].iter();
+                    let lines = lines.filter(|b| **b == b'\n').count() as u32;
+                    self.line += lines;
+                    new_line |= lines > 0;
+                    first |= lines > 0;
+                    rest = after;
+                }
+                [b'#', ..] if first => rest = self.directive(rest),
+                _ => match space(rest) {
+                    Ok((after, ())) => rest = after,
+                    Err(_) => return (rest, new_line),
+                },
             }
         }
     }
@@ -273,11 +292,7 @@ fn space(input: &[u8]) -> IResult<&[u8], ()> {
 }
 
 fn to_line_end(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    take_till(|b| b == b'\n').parse(input)
-}
-
-fn line_comment(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    recognize((alt((tag(";"), tag("//"))), to_line_end)).parse(input)
+    alt((take_until("\n"), rest)).parse(input)
 }
 
 fn closed_comment(input: &[u8]) -> IResult<&[u8], &[u8]> {
@@ -296,9 +311,8 @@ fn is_word(b: u8) -> bool {
 /// `vs` or `ps`, perhaps with the `x` of the Xbox, a separator and what follows without a blank.
 fn version(input: &[u8]) -> IResult<&[u8], Kind> {
     let (input, _) = (
-        opt(one_of("xX")),
-        one_of("vVpP"),
-        one_of("sS"),
+        opt(tag_no_case("x")),
+        alt((tag_no_case("vs"), tag_no_case("ps"))),
         one_of("._"),
         one_of("0123456789lIiOo|"),
         take_while(|b: u8| is_word(b) || b == b'.'),
@@ -340,16 +354,17 @@ fn word(input: &[u8]) -> IResult<&[u8], Kind> {
 }
 
 fn sign(input: &[u8]) -> IResult<&[u8], Kind> {
-    alt((
-        value(Kind::Comma, tag(",")),
-        value(Kind::Dot, tag(".")),
-        value(Kind::Plus, tag("+")),
-        value(Kind::Minus, tag("-")),
-        value(Kind::Open, tag("[")),
-        value(Kind::Close, tag("]")),
-        value(Kind::Colon, tag(":")),
-    ))
-    .parse(input)
+    let kind = |sign: u8| match sign {
+        b',' => Some(Kind::Comma),
+        b'.' => Some(Kind::Dot),
+        b'+' => Some(Kind::Plus),
+        b'-' => Some(Kind::Minus),
+        b'[' => Some(Kind::Open),
+        b']' => Some(Kind::Close),
+        b':' => Some(Kind::Colon),
+        _ => None,
+    };
+    map_opt(byte, kind).parse(input)
 }
 
 /// En dash, em dash, hyphen and minus sign in UTF-8, and the en dash of code page 1252.
@@ -375,6 +390,12 @@ fn junk(input: &[u8]) -> IResult<&[u8], Kind> {
     value(Kind::Junk, alt((take_while1(plain), one))).parse(input)
 }
 
+/// One token of any kind. Its first byte says which are to be tried.
 fn any_token(input: &[u8]) -> IResult<&[u8], Kind> {
-    alt((version, number_or_word, word, sign, dash, junk)).parse(input)
+    match input.first() {
+        Some(b'v' | b'V' | b'p' | b'P' | b'x' | b'X') => alt((version, word)).parse(input),
+        Some(b'0'..=b'9' | b'.') => alt((number_or_word, sign)).parse(input),
+        Some(first) if is_word(*first) => word(input),
+        _ => alt((sign, dash, junk)).parse(input),
+    }
 }

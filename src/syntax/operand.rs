@@ -1,7 +1,7 @@
 //! Operands as they are written, before it is known which is the destination.
 
 use super::lexer::{Kind, Token};
-use super::names::{self, Found, Letters, Name, ResultSuffix};
+use super::names::{self, Components, Found, Letters, Name, ResultSuffix};
 use super::parser::Parser;
 use super::report::{names as listed, quote};
 use super::rules;
@@ -32,7 +32,7 @@ pub(super) struct WrittenRegister {
     /// Nothing or a source suffix.
     pub(super) suffix: &'static str,
     /// The letters behind the dot.
-    pub(super) components: Option<Vec<u8>>,
+    pub(super) components: Option<Components>,
     /// Where they stand.
     pub(super) components_span: Span,
     /// Whether something in it was reported that cannot be repaired.
@@ -184,14 +184,13 @@ impl<'a> Parser<'a> {
 
     /// The register of a word, with the suffix in the same word and whether it was certainly meant.
     fn register(&mut self, token: Token, is_first: bool) -> Option<(Register, Suffix<'a>, bool)> {
-        let word = self.word(token);
-        let (stem, suffix) = word.split_at(word.find('_').unwrap_or(word.len()));
+        let (stem, suffix) = self.stem(token);
         let suffix_start = self.base + token.start + stem.len() as u32;
         let suffix_span = Span::new(suffix_start, self.base + token.end);
         let suffix = (!suffix.is_empty()).then_some((suffix, suffix_span));
         let stem_span = Span::new(self.base + token.start, suffix_start);
         let mut sure = true;
-        let name = match names::register(stem, self.version) {
+        let name = match self.registers(token) {
             Found::Exact(name) => name,
             Found::Misread(name, meant) => {
                 let message = format!("`{stem}` is no register");
@@ -446,7 +445,7 @@ impl<'a> Parser<'a> {
             return false;
         };
         let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
-        if !(any_order || components.is_sorted_by(|a, b| a < b)) {
+        if !(any_order || components.in_order()) {
             return false;
         }
         self.bump();
@@ -464,7 +463,7 @@ impl<'a> Parser<'a> {
     }
 
     fn components(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
-        let quoted = quote(text.as_bytes());
+        let quoted = || quote(text.as_bytes());
         let (message, help) = match names::letters(text) {
             Letters::Exact(components) => {
                 operand.components = Some(components);
@@ -473,12 +472,12 @@ impl<'a> Parser<'a> {
             Letters::Misread(mut readings) => {
                 // Only sources of vertex shaders name components in any order.
                 let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
-                readings.retain(|(letters, _)| any_order || letters.is_sorted_by(|a, b| a < b));
-                let message = format!("{quoted} are no components");
-                match &mut readings[..] {
+                readings.retain(|(letters, _)| any_order || letters.in_order());
+                let message = format!("{} are no components", quoted());
+                match &readings[..] {
                     [] => (message, "components are letters of xyzw or of rgba"),
                     [(components, meant)] => {
-                        operand.components = Some(std::mem::take(components));
+                        operand.components = Some(*components);
                         self.misread(&rules::SELECTOR, span, message, meant);
                         return;
                     }
@@ -493,19 +492,19 @@ impl<'a> Parser<'a> {
                 }
             }
             Letters::Mixed => (
-                format!("{quoted} mixes the letters xyzw and rgba"),
+                format!("{} mixes the letters xyzw and rgba", quoted()),
                 "take all letters from one of the two",
             ),
             Letters::TooMany => (
-                format!("{quoted} has more than four letters"),
+                format!("{} has more than four letters", quoted()),
                 "a register has four components",
             ),
             Letters::OtherLanguage => (
-                format!("{quoted} are components of another language"),
+                format!("{} are components of another language", quoted()),
                 "Direct3D 8 has xyzw and rgba",
             ),
             Letters::No => (
-                format!("{quoted} are no components"),
+                format!("{} are no components", quoted()),
                 "components are letters of xyzw or of rgba",
             ),
         };
@@ -516,8 +515,11 @@ impl<'a> Parser<'a> {
     /// `r4 x2`: a suffix whose underscore is lost.
     fn lost_underscore(&mut self, operand: &mut WrittenRegister) {
         let (before, next) = (self.previous(), self.peek());
+        if next.first || next.kind != Kind::Word {
+            return;
+        }
         let word = self.word(next);
-        if next.first || next.kind != Kind::Word || !names::is_source_suffix_stem(word) {
+        if !names::is_source_suffix_stem(word) {
             return;
         }
         self.bump();
