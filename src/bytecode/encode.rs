@@ -80,7 +80,12 @@ impl Encoder {
     /// The token of an opcode.
     fn opcode(&mut self, opcode: Opcode, co_issue: bool, span: Span) {
         let token = opcode.row().token;
-        let meant = Opcode::meant_by(token, self.version);
+        // An opcode of the version has its number to itself.
+        let own = opcode.form(self.version).is_some();
+        let meant = match own {
+            true => Some(opcode),
+            false => Opcode::meant_by(token, self.version),
+        };
         if meant != Some(opcode) {
             let message = format!("`{}` has no token in {}", opcode.mnemonic(), self.version);
             let help = meant.map(|other| {
