@@ -30,6 +30,7 @@ pub mod policy;
 pub mod preprocess;
 pub mod program;
 pub mod raster;
+pub mod rules;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod semantics;

@@ -1,10 +1,11 @@
 //! Vertex declarations: arrays of `D3DVSD_` tokens, which say where the elements of a vertex come from.
 
 use super::macros::{self, DATA_TYPES, Macro, Misfit};
-use super::rules::{self, Reports, tokens};
-use super::{MOST_ITEMS, MOST_TOKENS};
+use super::report::{Reports, tokens};
+use super::{MOST_ITEMS, MOST_TOKENS, rules};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::isa::register::VERTEX_CONSTANTS;
+use crate::rules::model;
 
 /// A vertex declaration, without the token that ends it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -204,7 +205,7 @@ impl Declaration {
         while !reports.full() {
             let Some(&word) = words.get(at).filter(|_| at < MOST_TOKENS) else {
                 let message = "the declaration ends without D3DVSD_END, 0xFFFFFFFF";
-                reports.error(&rules::UNENDED, at, message, "");
+                reports.error(&model::D1, at, message, "");
                 break;
             };
             if declaration.elements.len() == MOST_ITEMS {
@@ -242,7 +243,7 @@ impl Declaration {
                     of.text(&arguments),
                     words.len() - at - 1
                 );
-                reports.error(&rules::UNENDED, at, &message, "");
+                reports.error(&model::D1, at, &message, "");
                 break;
             };
             declaration.elements.push(Element {
@@ -296,10 +297,10 @@ impl Declaration {
                     let register = usize::from(*register);
                     if register > 15 {
                         let message = format!("a vertex shader has no register v{register}");
-                        found.push(Diagnostic::error(&rules::INPUT, *span, message));
+                        found.push(Diagnostic::error(&model::D2, *span, message));
                     } else if loaded.get(register) == Some(&true) {
                         let message = format!("v{register} is loaded a second time");
-                        let report = Diagnostic::warning(&rules::TWICE, *span, message);
+                        let report = Diagnostic::warning(&model::D3, *span, message);
                         found.push(report.with_help("the last one wins"));
                     }
                     if let Some(loaded) = loaded.get_mut(register) {
@@ -313,7 +314,7 @@ impl Declaration {
                             true => "no constant is loaded".to_string(),
                             false => format!("c{} is above c{}", end - 1, VERTEX_CONSTANTS - 1),
                         };
-                        found.push(Diagnostic::error(&rules::CONSTANTS, *span, message));
+                        found.push(Diagnostic::error(&model::D4, *span, message));
                     }
                 }
                 _ => {}

@@ -2,11 +2,13 @@
 
 use super::encode::{CO_ISSUE, source_at};
 use super::fields::{self, Fault};
-use super::rules::{self, Reports, tokens};
+use super::report::{Reports, tokens};
+use super::rules;
 use super::{COMMENT, END, MOST_ITEMS, MOST_TOKENS, OPERAND};
 use crate::diagnostic::Diagnostic;
 use crate::isa::{Opcode, ResultModifier, ShaderKind, Version, WriteMask};
 use crate::program::{Comment, Dcl, Def, Destination, Instruction, Program, Statement};
+use crate::rules::model;
 
 /// Bits 29:16 of an instruction token: controls, length and predication of later shader models.
 const LATER: u32 = 0x3FFF_0000;
@@ -66,7 +68,7 @@ pub fn decode(words: &[u32]) -> Decoded {
 /// Says what the first token is that is no version of Direct3D 8.
 fn no_version(words: &[u32], reports: &mut Reports) {
     let Some(&word) = words.first() else {
-        return reports.error(&rules::VERSION, 0, "the stream is empty", "");
+        return reports.error(&model::S13, 0, "the stream is empty", "");
     };
     let message = format!("0x{word:08X} is no version");
     let swapped = Version::from_token(word.swap_bytes());
@@ -82,7 +84,7 @@ fn no_version(words: &[u32], reports: &mut Reports) {
         _ if word == u32::from_le_bytes(*b"DXBC") => "it begins a shader of Direct3D 10 or later",
         _ => "a stream begins with 0xFFFE0100 or 0xFFFE0101, or with 0xFFFF0100 to 0xFFFF0104",
     };
-    reports.error(&rules::VERSION, 0, &message, help);
+    reports.error(&model::S13, 0, &message, help);
 }
 
 struct Decoder<'a> {
@@ -140,7 +142,7 @@ impl Decoder<'_> {
             self.reports.error(&rules::LONG, at, &message, "");
         } else {
             let help = "the end is lost: 0x0000FFFF closes a shader";
-            self.reports.error(&rules::CUT, at, message, help);
+            self.reports.error(&model::S12, at, message, help);
         }
     }
 

@@ -1,8 +1,8 @@
 //! Programs to tokens.
 
 use super::fields::{self, Fault};
-use super::rules;
 use super::{COMMENT, END, MOST_ITEMS, MOST_TOKENS};
+use super::{report, rules};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::isa::{Opcode, ResultModifier, ShaderKind, SourceModifier, Version, WriteMask};
 use crate::program::{
@@ -33,7 +33,7 @@ pub fn encode(program: &Program) -> Result<Vec<u32>, Vec<Diagnostic>> {
             Item::Statement(Statement::Dcl(d)) => encoder.declaration(d),
             Item::Comment(c) => encoder.comment(c),
         }
-        if encoder.faults.len() >= rules::MOST {
+        if encoder.faults.len() >= report::MOST {
             break;
         }
     }
@@ -179,6 +179,6 @@ pub(super) fn source_at(
         register,
         swizzle,
         modifier,
-        span: rules::tokens(at, at + 1),
+        span: report::tokens(at, at + 1),
     }
 }

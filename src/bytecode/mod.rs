@@ -52,7 +52,7 @@ mod fields;
 mod input;
 mod literal;
 mod macros;
-mod rules;
+mod report;
 
 #[cfg(test)]
 mod tests;
@@ -62,7 +62,8 @@ pub use decode::{Decoded, decode};
 pub use disassemble::{Disassembly, disassemble};
 pub use encode::encode;
 pub use input::{Form, Input, Stream, StreamKind, read, recognize};
-pub use rules::RULES;
+
+use crate::rules::tokens as rules;
 
 /// The token that ends a shader.
 pub const END: u32 = 0x0000_FFFF;

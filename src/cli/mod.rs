@@ -20,7 +20,6 @@ mod fmt;
 mod fuzz_match;
 mod generate;
 mod given;
-mod includes;
 mod reflect;
 mod run;
 mod scene;

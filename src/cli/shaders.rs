@@ -1,13 +1,12 @@
 //! The shaders of the files that commands are given, whatever the files are.
 
-use super::includes::Folders;
 use super::{Failure, dialect, files};
 use std::path::PathBuf;
 use texcrd::diagnostic::{Diagnostic, SourceMap, TooLarge};
-use texcrd::extract::{self, File, Shader};
+use texcrd::extract::{self, File, NotOne, Shader};
 use texcrd::listing::{self, Checked};
 use texcrd::policy::Dialect;
-use texcrd::preprocess::{self, Definition};
+use texcrd::preprocess::{self, Definition, Folders};
 
 /// How files with shaders are read.
 #[derive(clap::Args)]
@@ -34,18 +33,6 @@ pub(super) struct Opened {
     pub(super) shaders: Vec<(String, Shader)>,
 }
 
-impl Opened {
-    /// `1 (name), 2 (name)`: what can be picked.
-    pub(super) fn list(&self) -> String {
-        let all = self.file.names().into_iter().enumerate();
-        let one = |(at, name): (usize, String)| match (at + 1).to_string() {
-            number if number == name => number,
-            number => format!("{number} ({name})"),
-        };
-        all.map(one).collect::<Vec<_>>().join(", ")
-    }
-}
-
 /// The shaders of a file that are meant: those of these names, or all of them.
 pub(super) fn pick(file: File, wanted: &[String], path: &str) -> Result<Opened, Failure> {
     let mut opened = Opened {
@@ -57,11 +44,9 @@ pub(super) fn pick(file: File, wanted: &[String], path: &str) -> Result<Opened, 
     for wanted in wanted {
         let found = opened.file.find(wanted);
         if found.is_empty() {
-            return Err(Failure::Io(format!(
-                "{}: there is no shader `{wanted}`; it is one of {}",
-                files::name(path),
-                opened.list()
-            )));
+            let (wanted, list) = (wanted.clone(), opened.file.list());
+            let unknown = NotOne::Unknown { wanted, list };
+            return Err(Failure::Io(format!("{}: {unknown}", files::name(path))));
         }
         picked.extend(found);
     }
@@ -79,10 +64,10 @@ pub(super) fn pick(file: File, wanted: &[String], path: &str) -> Result<Opened, 
 pub(super) fn not_one(opened: &Opened, path: &str) -> Failure {
     let name = files::name(path);
     match opened.shaders.len() {
-        0 => Failure::Input(format!("{name}: there is no shader in this file")),
+        0 => Failure::Input(format!("{name}: {}", NotOne::Nothing)),
         _ => Failure::Io(format!(
             "{name}: this file holds several shaders: pick one with --shader, of {}",
-            opened.list()
+            opened.file.list()
         )),
     }
 }

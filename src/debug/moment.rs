@@ -168,6 +168,19 @@ pub struct Flags {
 }
 
 impl Flags {
+    /// What either of them says: the flags of several moments together.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            saturated: self.saturated.or(other.saturated),
+            clamped: self.clamped.or(other.clamped),
+            nan: self.nan.or(other.nan),
+            infinite: self.infinite.or(other.infinite),
+            out_of_range: self.out_of_range || other.out_of_range,
+            uninitialised: self.uninitialised || other.uninitialised,
+        }
+    }
+
     /// Whether nothing is remarkable.
     pub fn is_empty(self) -> bool {
         self == Self::default()

@@ -61,17 +61,7 @@ fn flags(session: &Session<'_>, line: usize) -> Flags {
         .moments
         .iter()
         .filter(|m| m.instruction == Some(instruction));
-    moments.fold(Flags::default(), |all, moment| {
-        let flags = moment.flags[0];
-        Flags {
-            saturated: all.saturated.or(flags.saturated),
-            clamped: all.clamped.or(flags.clamped),
-            nan: all.nan.or(flags.nan),
-            infinite: all.infinite.or(flags.infinite),
-            out_of_range: all.out_of_range || flags.out_of_range,
-            uninitialised: all.uninitialised || flags.uninitialised,
-        }
-    })
+    moments.fold(Flags::default(), |all, moment| all.or(moment.flags[0]))
 }
 
 #[test]

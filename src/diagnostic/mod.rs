@@ -1,6 +1,6 @@
 //! What texcrd has to say about a listing: rule, place, message and, where it can be known, the repair.
 //!
-//! This room knows nothing of shaders. A [`Rule`] is defined where it is checked (`syntax`, `validate`);
+//! This room knows nothing of shaders. A [`Rule`] is a row of the rule list ([`crate::rules`]) or of scene files;
 //! a [`Diagnostic`] is one breach of it at one [`Span`]; a [`SourceMap`] turns spans into lines and columns,
 //! also of texts that a preprocessor made of others.
 //! The rules' identifiers are stable: they are printed, documented and never reused.
@@ -14,7 +14,7 @@ pub use source::{Location, SourceFile, SourceMap, Span, TooLarge};
 /// A rule with its stable identifier.
 ///
 /// Identifiers are those of the shader model's rule list (`B1` … `D5`), `P…` for text that is not a listing and
-/// `K…` for tokens that are not a shader.
+/// `K…` for tokens that are not a shader; scene files have their own.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Rule {
     /// The stable identifier, such as `B3`.

@@ -24,6 +24,7 @@ use crate::listing::{self, Checked};
 use crate::preprocess;
 use crate::preprocess::scan::Language;
 use crate::syntax;
+use std::fmt;
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,6 +100,36 @@ impl File {
         names
     }
 
+    /// What can be picked: `1 (name), 2 (name)`.
+    pub fn list(&self) -> String {
+        let all = self.names().into_iter().enumerate();
+        let one = |(at, name): (usize, String)| match (at + 1).to_string() {
+            number if number == name => number,
+            number => format!("{number} ({name})"),
+        };
+        all.map(one).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The only shader, or the only one that `wanted` names (see [`Self::find`]).
+    ///
+    /// # Errors
+    /// [`NotOne`] with the shaders that there are.
+    pub fn one(&self, wanted: Option<&str>) -> Result<&Shader, NotOne> {
+        let found = match wanted {
+            Some(wanted) => self.find(wanted),
+            None => (0..self.shaders.len()).collect(),
+        };
+        match (&found[..], wanted) {
+            ([at], _) => self.shaders.get(*at).ok_or(NotOne::Nothing),
+            _ if self.shaders.is_empty() => Err(NotOne::Nothing),
+            ([], Some(wanted)) => Err(NotOne::Unknown {
+                wanted: wanted.to_string(),
+                list: self.list(),
+            }),
+            _ => Err(NotOne::Several { list: self.list() }),
+        }
+    }
+
     /// The numbers of the shaders that `wanted` names: by name, by the number from 1, or by the first parts of their names
     /// (`technique/pass` are all shaders of a pass, `variable` all strings of an array). Letters may be of either case if that leaves no doubt.
     pub fn find(&self, wanted: &str) -> Vec<usize> {
@@ -127,6 +158,44 @@ impl File {
         found
     }
 }
+
+/// Why no shader of a file is meant alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotOne {
+    /// The file has none.
+    Nothing,
+    /// Several are meant.
+    Several {
+        /// Those that the file has.
+        list: String,
+    },
+    /// None is called so.
+    Unknown {
+        /// What was asked for.
+        wanted: String,
+        /// Those that the file has.
+        list: String,
+    },
+}
+
+impl fmt::Display for NotOne {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => write!(f, "there is no shader in this file"),
+            Self::Several { list } => {
+                write!(
+                    f,
+                    "several shaders of this file are meant: pick one of {list}"
+                )
+            }
+            Self::Unknown { wanted, list } => {
+                write!(f, "there is no shader `{wanted}`; it is one of {list}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NotOne {}
 
 /// Adds a file to the sources and finds its shaders.
 ///

@@ -17,9 +17,9 @@ mod condition;
 mod define;
 mod directive;
 mod expand;
+mod folders;
 mod output;
 mod resolve;
-mod rules;
 pub(crate) mod scan;
 mod token;
 
@@ -27,10 +27,11 @@ mod token;
 mod tests;
 
 pub use define::{BadDefinition, Definition};
+pub use folders::Folders;
 pub use resolve::{Included, NoFiles, Resolver};
-pub use rules::RULES;
 
 use crate::diagnostic::{Diagnostic, Rule, SourceMap, Span};
+use crate::rules::text as rules;
 use define::Macro;
 use directive::Condition;
 use output::Output;

@@ -10,6 +10,7 @@ use super::statement::Head;
 use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::isa::WriteMask;
 use crate::program::{Dcl, Def, Register, Statement, Usage};
+use crate::rules::model;
 
 impl Parser<'_> {
     /// `def` behind its mnemonic.
@@ -30,7 +31,7 @@ impl Parser<'_> {
         {
             let message = "`def` sets a whole register";
             let help = "write the register alone, without modifier and components";
-            self.error(&rules::REGISTER, r.span, message, help);
+            self.error(&model::O25, r.span, message, help);
         }
         let named = match &operand {
             Written::Register(r) => Some(r.register),
@@ -65,7 +66,7 @@ impl Parser<'_> {
             } else {
                 "write all four components"
             };
-            self.error(&rules::OPERAND_COUNT, span, message, help);
+            self.error(&model::O25, span, message, help);
         }
         match (register, <[f32; 4]>::try_from(values)) {
             (Some((register, register_span)), Ok(value)) if whole && !head.damaged => {

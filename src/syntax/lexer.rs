@@ -256,7 +256,7 @@ impl<'a> Lexer<'a, '_> {
             );
             let help =
                 "macros cannot make directives, and this text may not have been preprocessed";
-            let report = Diagnostic::error(&rules::DIRECTIVE, span, message).with_help(help);
+            let report = Diagnostic::error(&rules::UNSEEN_DIRECTIVE, span, message).with_help(help);
             self.reports.push(report);
             if self.directives.len() < 64 {
                 self.directives.push(text);

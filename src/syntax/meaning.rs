@@ -7,6 +7,7 @@ use super::report::quote;
 use super::rules;
 use crate::isa::{SourceModifier, Swizzle, WriteMask};
 use crate::program::{Destination, Source, letters};
+use crate::rules::model;
 
 impl Parser<'_> {
     /// The operand as a destination; `None` if it was reported.
@@ -33,7 +34,7 @@ impl Parser<'_> {
             let text = self.text_of(written.components_span);
             let message = format!("{} is no write mask", quote(text));
             let help = format!("a mask names components in order and none twice: {meant}");
-            self.error(&rules::SELECTOR, written.components_span, message, &help);
+            self.error(&model::O24, written.components_span, message, &help);
             return None;
         }
         Some(Destination {
@@ -57,8 +58,17 @@ impl Parser<'_> {
                 "`{}` and `{}` do not go together",
                 written.prefix, written.suffix
             );
-            let help = "`1-` goes with no other modifier, and a division with none either";
-            self.error(&rules::SOURCE_MODIFIER, written.span, message, help);
+            let (rule, help) = match written.prefix {
+                "1-" => (
+                    &model::M4,
+                    "`1-` goes with no other modifier; compute one of them into a register first",
+                ),
+                _ => (
+                    &rules::SOURCE_MODIFIER,
+                    "a division goes with no minus sign",
+                ),
+            };
+            self.error(rule, written.span, message, help);
             return None;
         };
         let plain = matches!(modifier, SourceModifier::None | SourceModifier::Negate);
@@ -66,7 +76,7 @@ impl Parser<'_> {
             let text = [written.prefix, written.suffix].concat();
             let message = format!("`{text}` is a modifier of pixel shaders");
             let help = "a source of a vertex shader takes only `-`";
-            self.error(&rules::SOURCE_MODIFIER, written.span, message, help);
+            self.error(&model::O23, written.span, message, help);
             return None;
         }
         Some(Source {

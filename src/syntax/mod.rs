@@ -22,7 +22,6 @@ mod parser;
 mod printer;
 mod prologue;
 mod report;
-mod rules;
 mod statement;
 mod unread;
 
@@ -35,12 +34,12 @@ pub use format::format;
 pub(crate) use format::format_block;
 pub use printer::{print, print_instruction};
 pub(crate) use prologue::{begins_with_version, not_text};
-pub use rules::RULES;
 pub use unread::unread;
 
 use crate::diagnostic::{Diagnostic, SourceFile, Span};
 use crate::isa::Version;
 use crate::program::{Program, Register, Statement};
+use crate::rules::text as rules;
 use parser::Parser;
 use report::Reports;
 

@@ -8,6 +8,7 @@ use super::rules;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::isa::{RegisterFile, ShaderKind, SourceModifier};
 use crate::program::{Register, Statement};
+use crate::rules::model;
 
 /// An operand as it is written.
 #[derive(Clone, Debug)]
@@ -141,15 +142,15 @@ impl<'a> Parser<'a> {
             while matches!(self.peek().kind, Kind::Minus | Kind::Dash) {
                 self.bump();
             }
-            if minuses > 0 || extra {
-                let message = "`1-` and `-` stand before one register";
-                let help =
-                    "`1-` goes with no other modifier; compute one of them into a register first";
-                self.error(&rules::SOURCE_MODIFIER, span, message, help);
-            } else if value != Some(1.0) {
+            if value != Some(1.0) {
                 let message = format!("`{text} -` is no modifier: only `1-` is");
                 let help = "define the number with `def` and use `sub`";
                 self.error(&rules::SOURCE_MODIFIER, span, message, help);
+            } else if minuses > 0 || extra {
+                let message = "`1-` and `-` stand before one register";
+                let help =
+                    "`1-` goes with no other modifier; compute one of them into a register first";
+                self.error(&model::M4, span, message, help);
             } else {
                 if text != "1" {
                     let message = format!("`{text}-` is read as `1-`");
@@ -360,8 +361,10 @@ impl<'a> Parser<'a> {
                 let message = format!("{} is no source modifier", quote(text.as_bytes()));
                 let help = if names::exact_result_suffix(text).is_some() {
                     "it belongs to the mnemonic, where it modifies the result".to_string()
-                } else {
+                } else if names::has_source_suffixes(self.version) {
                     format!("the modifiers are {}", listed(SourceModifier::suffixes()))
+                } else {
+                    "a source of a vertex shader takes only `-`".to_string()
                 };
                 self.error(&rules::SOURCE_MODIFIER, span, message, &help);
             }
@@ -464,12 +467,13 @@ impl<'a> Parser<'a> {
 
     fn components(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
         let quoted = || quote(text.as_bytes());
-        let (message, help) = match names::letters(text) {
+        let mut found = names::letters(text);
+        let (message, help) = match &mut found {
             Letters::Exact(components) => {
-                operand.components = Some(components);
+                operand.components = Some(*components);
                 return;
             }
-            Letters::Misread(mut readings) => {
+            Letters::Misread(readings) => {
                 // Only sources of vertex shaders name components in any order.
                 let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
                 readings.retain(|(letters, _)| any_order || letters.in_order());
@@ -484,7 +488,7 @@ impl<'a> Parser<'a> {
                     _ => {
                         operand.damaged = true;
                         const MOST: usize = 4;
-                        let meant = readings.into_iter().map(|(_, meant)| meant);
+                        let meant = readings.iter_mut().map(|(_, meant)| std::mem::take(meant));
                         let meant: Vec<String> = meant.take(MOST).collect();
                         self.unsure(&rules::SELECTOR, span, message, &meant);
                         return;
@@ -509,7 +513,14 @@ impl<'a> Parser<'a> {
             ),
         };
         operand.damaged = true;
-        self.error(&rules::SELECTOR, span, message, help);
+        // More than four letters are not in order.
+        let of_mask = operand.first && matches!(found, Letters::Mixed | Letters::TooMany);
+        let rule = if of_mask {
+            &model::O24
+        } else {
+            &rules::SELECTOR
+        };
+        self.error(rule, span, message, help);
     }
 
     /// `r4 x2`: a suffix whose underscore is lost.

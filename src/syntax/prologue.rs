@@ -8,6 +8,7 @@ use super::report::quote;
 use super::rules;
 use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::isa::{RegisterFile, ShaderKind, Version};
+use crate::rules::model;
 
 /// Where the version was found.
 pub(super) struct Heading {
@@ -95,7 +96,7 @@ impl Parser<'_> {
                 if !*reported {
                     let message = "this stands before the version instruction";
                     let help = "move the version instruction to the front";
-                    self.error(&rules::VERSION_MISSING, self.span(first), message, help);
+                    self.error(&model::S1, self.span(first), message, help);
                 }
                 *reported = true;
                 self.skip_line();
@@ -149,7 +150,7 @@ impl Parser<'_> {
                 false => "the text holds only comments: the version instruction is missing",
             };
             let help = "begin with one of vs.1.0, vs.1.1, ps.1.0 to ps.1.4";
-            self.error(&rules::VERSION_MISSING, span.at_start(), message, help);
+            self.error(&model::S1, span.at_start(), message, help);
             return None;
         }
         let end = self.line_end(1);
@@ -158,7 +159,7 @@ impl Parser<'_> {
             "the version instruction is missing: the listing begins with {}",
             quote(line)
         );
-        let mut report = Diagnostic::error(&rules::VERSION_MISSING, span, message);
+        let mut report = Diagnostic::error(&model::S1, span, message);
         let guess = self.likely_version();
         report = match guess {
             Some(version) => report

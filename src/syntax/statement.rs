@@ -9,6 +9,7 @@ use super::rules;
 use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::isa::{Opcode, ResultModifier, ShaderKind};
 use crate::program::{Instruction, Statement};
+use crate::rules::model;
 
 /// What stands before the operands of a statement.
 #[derive(Clone, Copy)]
@@ -62,7 +63,9 @@ impl Parser<'_> {
                         self.quoted(token)
                     );
                     let help = "give each shader a file of its own; what follows is not read";
-                    self.error(&rules::VERSION_TWICE, self.span(token), message, help);
+                    self.error(&model::S1, self.span(token), message, help);
+                    // Nothing can be concluded from what is missing: it may stand in what is not read.
+                    self.damage(self.span_of(token, self.token(self.tokens.len())), None);
                     break;
                 }
                 Kind::Word => self.word_statement(token, plus.is_some()),
@@ -359,16 +362,23 @@ impl Parser<'_> {
         if head.result == ResultModifier::NONE || head.damaged {
             return;
         }
-        let why = match head.opcode {
-            Opcode::Def | Opcode::Phase | Opcode::Nop => "computes nothing",
-            _ if self.version.kind() == ShaderKind::Vertex => {
-                "is an instruction of a vertex shader, which has none"
-            }
+        let mnemonic = head.opcode.mnemonic();
+        let (rule, message, help) = match head.opcode {
+            Opcode::Def | Opcode::Phase | Opcode::Nop => (
+                &rules::RESULT_SUFFIX,
+                format!("`{mnemonic}` takes no suffix: it computes nothing"),
+                format!("write `{mnemonic}` alone"),
+            ),
+            _ if self.version.kind() == ShaderKind::Vertex => (
+                &model::O23,
+                format!("{} has no {}", self.version, head.result.text()),
+                "a vertex shader computes it with further instructions: max and min clamp, mul and add scale"
+                    .to_string(),
+            ),
             _ => return,
         };
         head.damaged = true;
-        let message = format!("`{}` takes no suffix: it {why}", head.opcode.mnemonic());
-        self.report(Diagnostic::error(&rules::RESULT_SUFFIX, head.span, message));
+        self.error(rule, head.span, message, &help);
     }
 
     /// One suffix of a mnemonic, underscore included.

@@ -1,8 +1,9 @@
 //! B1 to B10: how much a shader may hold.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing, Phase, ordinal};
+use super::report::Report;
 use crate::isa::{Form, Opcode, ShaderKind, SourceModifier, Version};
+use crate::rules::model::Code;
 
 /// Slots that a phase takes.
 #[derive(Clone, Copy, Debug, Default)]

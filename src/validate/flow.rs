@@ -1,9 +1,10 @@
 //! I1 to I5, T13, S6, S7: which component of which temporary holds a value, line by line.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing, Phase, Read};
+use super::report::Report;
 use crate::isa::{Opcode, RegisterFile, WriteMask};
 use crate::program::Register;
+use crate::rules::model::Code;
 
 /// What is known of one `r#`.
 #[derive(Clone, Copy)]

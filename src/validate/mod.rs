@@ -6,12 +6,12 @@
 
 mod budgets;
 mod flow;
-mod laws;
 mod listing;
 mod modifiers;
 mod operands;
 mod pairing;
 mod ports;
+mod report;
 mod stages;
 mod statistics;
 mod structure;
@@ -19,14 +19,13 @@ mod structure;
 #[cfg(test)]
 mod tests;
 
-pub use laws::RULES;
 pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
 use crate::program::{Program, Register};
-use laws::Report;
 use listing::Listing;
+use report::Report;
 
 /// Judges a program by the rules of a dialect. Returns every breach, by position, but of one rule no more than 100,
 /// so that a file that is no shader does not drown in them.

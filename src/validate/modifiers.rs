@@ -1,13 +1,14 @@
 //! M1 to M13: modifiers, selectors and write masks of pixel shaders; O23, their absence from vertex shaders.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing, Phase, enumerate, version_names};
 use super::operands::is_condition_of_cnd;
+use super::report::Report;
 use crate::isa::opcode::{DestinationShape, ModifierRule};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, ResultModifier, SourceModifier, Swizzle, Version, WriteMask,
 };
 use crate::program::Source;
+use crate::rules::model::Code;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     for (line, form) in listing.known() {

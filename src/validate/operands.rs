@@ -1,8 +1,8 @@
 //! O1 to O26: which registers an operand may name.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing, Phase, enumerate};
 use super::modifiers::allowed_masks;
+use super::report::Report;
 use crate::diagnostic::Span;
 use crate::isa::opcode::{ModifierRule, Slots};
 use crate::isa::register::{Access, RAST_OUT, VERTEX_CONSTANTS};
@@ -10,6 +10,7 @@ use crate::isa::{
     Class, Form, Opcode, RegisterFile, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
 use crate::program::{Destination, Register, Source};
+use crate::rules::model::Code;
 
 /// How many constants software vertex processing has; there is no storage beyond.
 const MOST_VERTEX_CONSTANTS: u32 = 256;

@@ -1,10 +1,11 @@
 //! C1 to C7: instructions that run together.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing};
+use super::report::Report;
 use crate::isa::opcode::Pairing;
 use crate::isa::{Version, WriteMask};
 use crate::program::Statement;
+use crate::rules::model::Code;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     if !listing.is_pixel() {

@@ -1,10 +1,11 @@
 //! R1 to R11: how many registers of a file an instruction may read.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing, Read, enumerate};
+use super::report::Report;
 use crate::diagnostic::Span;
 use crate::isa::{RegisterFile, Version};
 use crate::program::Register;
+use crate::rules::model::Code;
 
 /// How many registers of a file both halves of a pair may read together (Direct3D 8.1: instruction pairing).
 const PORTS_OF_A_PAIR: usize = 3;

@@ -1,10 +1,11 @@
 //! T1 to T12 and I4: the texture registers of `ps.1.0` to `ps.1.3`, which are stages, coordinates and results at once.
 
-use super::laws::{Code, Report};
 use super::listing::{Line, Listing, Read};
+use super::report::Report;
 use crate::diagnostic::Span;
 use crate::isa::{Opcode, RegisterFile, WriteMask};
 use crate::program::Register;
+use crate::rules::model::Code;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     if !listing.has_texture_stages() {
@@ -24,38 +25,42 @@ fn stage(line: &Line) -> Option<u32> {
     (line.is_texture() && register.file == RegisterFile::Texture).then_some(register.index)
 }
 
-/// T1.
+/// T1, T2.
 fn stages_increase(listing: &Listing, report: &mut Report) {
     let mut highest: Option<(u32, &Line)> = None;
+    let mut users: [Option<&Line>; STAGES] = [None; STAGES];
     // What goes beyond the number of stages is told by B2.
     let stages = listing.version.row().texture_slots as usize;
     for line in listing.lines.iter().filter(|l| l.is_texture()).take(stages) {
         let (Some(stage), Some(destination)) = (stage(line), line.instruction.destination) else {
             continue;
         };
-        let Some((before, earlier)) = highest else {
+        let user = users.get_mut(stage as usize);
+        let same = user.and_then(|user| user.replace(line));
+        let Some((before, earlier)) = highest.filter(|(before, _)| stage <= *before) else {
             highest = Some((stage, line));
             continue;
         };
-        if stage > before {
-            highest = Some((stage, line));
-            continue;
-        }
         // texkill writes nothing; whether it takes part in the order is not written down.
         let kills = |l: &Line| l.instruction.opcode == Opcode::TexKill;
-        let code = if kills(line) || kills(earlier) {
+        let (code, message) = match same {
+            Some(same) => (
+                Code::T2,
+                format!("stage {stage} is used by {} before", same.mnemonic()),
+            ),
+            None => (
+                Code::T1,
+                format!(
+                    "{} t{stage} stands behind {} t{before}",
+                    line.mnemonic(),
+                    earlier.mnemonic()
+                ),
+            ),
+        };
+        let code = if kills(line) || kills(same.unwrap_or(earlier)) {
             Code::T1Kill
         } else {
-            Code::T1
-        };
-        let message = if stage == before {
-            format!("stage {stage} is used by {} before", earlier.mnemonic())
-        } else {
-            format!(
-                "{} t{stage} stands behind {} t{before}",
-                line.mnemonic(),
-                earlier.mnemonic()
-            )
+            code
         };
         report.breach(
             code,

@@ -1,10 +1,12 @@
 //! S2 to S14: which instructions stand where, and what a shader has to write.
 
-use super::laws::{Code, Report};
-use super::listing::{Listing, Phase, version_names};
+use super::listing::{Line, Listing, Phase, version_names};
+use super::report::Report;
 use crate::isa::register::OPOS;
 use crate::isa::{Opcode, RegisterFile, Version, WriteMask};
 use crate::program::{Destination, Register, Statement};
+use crate::rules::model::Code;
+use std::collections::HashSet;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     instructions_exist(listing, report);
@@ -13,6 +15,7 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
     if !listing.is_pixel() {
         position_is_written(listing, report);
         coordinates_have_no_gaps(listing, report);
+        inputs_are_declared(listing, report);
     }
 }
 
@@ -163,6 +166,30 @@ fn position_is_written(listing: &Listing, report: &mut Report) {
             format!("oPos{} is never written", listing.mask(missing)),
             "a component that is not written is 0 here",
         );
+    }
+}
+
+/// S11. Each input is named once.
+fn inputs_are_declared(listing: &Listing, report: &mut Report) {
+    let declarations = listing.program.declarations();
+    let mut known: HashSet<Register> = declarations.map(|d| d.register).collect();
+    for read in listing.lines.iter().flat_map(Line::reads) {
+        let register = read.register;
+        let is_input = register.file == RegisterFile::Input && listing.exists(register);
+        if is_input
+            && !register.relative
+            && known.insert(register)
+            && !listing.hides_write(register, listing.program.span.at_end())
+        {
+            report.breach(
+                Code::S11,
+                read.span,
+                format!("{register} is read, but no dcl_ says what comes in there"),
+                format!(
+                    "write such as dcl_position {register} behind the version; for Direct3D 8 an array of D3DVSD_ tokens beside the shader says it"
+                ),
+            );
+        }
     }
 }
 

@@ -55,7 +55,7 @@ fn broken_streams() {
     let ran = texcrd_with_input(&["dis", "-"], &bytes);
     assert_eq!((ran.status, ran.out.as_str()), (1, ""));
     for part in [
-        "error[K2]: token 2 (byte 8): the stream ends in `tex`: 0 of 1 operand tokens are there",
+        "error[S12]: token 2 (byte 8): the stream ends in `tex`: 0 of 1 operand tokens are there",
         "the end is lost: 0x0000FFFF closes a shader",
     ] {
         assert!(ran.err.contains(part), "{part} in\n{}", ran.err);
@@ -87,7 +87,7 @@ fn declarations_are_recognised_or_told() {
     assert_eq!(ran.out, expected);
     // One that begins with what no declaration begins with.
     let ran = texcrd_with_input(&["dis", "-"], b"C0000000 FFFFFFFF");
-    assert!(ran.err.contains("K1"), "{}", ran.err);
+    assert!(ran.err.contains("S13"), "{}", ran.err);
     let ran = texcrd_with_input(&["dis", "-", "--declaration"], b"C0000000 FFFFFFFF");
     assert!(ran.err.contains("K19"), "{}", ran.err);
 }

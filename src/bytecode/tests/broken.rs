@@ -51,37 +51,37 @@ fn versions() {
     ] {
         broken(
             &format!("{token} 00000000 12345678"),
-            &format!("error K1 token 0 (byte 0): 0x{token} is no version\n"),
+            &format!("error S13 token 0 (byte 0): 0x{token} is no version\n"),
         );
         let decoded = decode(&words(token));
         assert_eq!(decoded.diagnostics[0].help.as_deref(), Some(help));
         assert!(decoded.program.is_none());
     }
-    broken("", "error K1 token 0 (byte 0): the stream is empty\n");
+    broken("", "error S13 token 0 (byte 0): the stream is empty\n");
 }
 
 #[test]
 fn streams_that_are_cut_short() {
     broken(
         "FFFF0101",
-        "error K2 token 1 (byte 4): the stream ends without the end token\n",
+        "error S12 token 1 (byte 4): the stream ends without the end token\n",
     );
     broken(
         "FFFF0101 00000042 B00F0000",
-        "error K2 token 3 (byte 12): the stream ends without the end token\n",
+        "error S12 token 3 (byte 12): the stream ends without the end token\n",
     );
     broken(
         "FFFF0101 00000004 800F0000 80E40000",
-        "error K2 token 4 (byte 16): the stream ends in `mad`: 2 of 4 operand tokens are there\n",
+        "error S12 token 4 (byte 16): the stream ends in `mad`: 2 of 4 operand tokens are there\n",
     );
     // A `def` at the end: the end token is taken for one of its numbers.
     broken(
         "FFFF0101 00000051 A00F0000 3F800000 0000FFFF",
-        "error K2 token 5 (byte 20): the stream ends in `def`, which has 2 numbers instead of 4\n",
+        "error S12 token 5 (byte 20): the stream ends in `def`, which has 2 numbers instead of 4\n",
     );
     broken(
         "FFFF0101 00000051",
-        "error K2 token 2 (byte 8): the stream ends in `def`: 0 of 5 operand tokens are there\n",
+        "error S12 token 2 (byte 8): the stream ends in `def`: 0 of 5 operand tokens are there\n",
     );
     broken(
         "FFFF0101 0005FFFE 00000000 0000FFFF",

@@ -244,11 +244,3 @@ fn what_is_no_directive() {
     // A # that does not begin its line is no directive.
     assert_eq!(out("x #define A\n"), "x #define A\n");
 }
-
-#[test]
-fn rules_are_numbered_behind_those_of_the_text() {
-    let ids: Vec<&str> = super::super::RULES.iter().map(|r| r.id).collect();
-    let text = crate::syntax::RULES.len();
-    let expected: Vec<String> = (1..=ids.len()).map(|n| format!("P{}", text + n)).collect();
-    assert_eq!(ids, expected);
-}

@@ -10,10 +10,12 @@ use std::path::{Path, PathBuf};
 use texcrd::debug::{
     Given, Listing, ListingSubject, PixelSubject, Session, Subject, VertexSubject, Which,
 };
-use texcrd::diagnostic::{Diagnostic, Severity, SourceMap};
+use texcrd::diagnostic::{Diagnostic, Severity, SourceMap, any_error};
+use texcrd::extract::{self, NotOne};
 use texcrd::kernel::{self, Kernel};
 use texcrd::listing;
 use texcrd::policy::Dialect;
+use texcrd::preprocess::{self, Definition, Folders};
 use texcrd::program::Program;
 use texcrd::scene::{DirectoryResolver, LoadOptions, RenderOptions, Scene};
 
@@ -97,10 +99,15 @@ impl Loaded {
             (Some(_), Some(_)) => Err("give a `pixel` or a `vertex`, not both"),
         };
         one.map_err(|why| format!("{name}: {why}"))?;
-        if arguments.set.as_ref().is_some_and(|set| !set.is_empty()) {
-            return Err(
-                format!("{name}: `set` is for listings; a scene has its own values").into(),
-            );
+        let of_listings = [
+            ("set", arguments.set.as_ref().is_some_and(|s| !s.is_empty())),
+            ("shader", arguments.shader.is_some()),
+            ("defines", arguments.defines.is_some()),
+            ("includes", arguments.includes.is_some()),
+        ];
+        if let Some((argument, _)) = of_listings.into_iter().find(|(_, given)| *given) {
+            let why = format!("{name}: `{argument}` is for listings; a scene has its own values");
+            return Err(why.into());
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolver = DirectoryResolver::new(folder);
@@ -126,11 +133,11 @@ impl Loaded {
         }
         let name = path.display().to_string();
         let mut sources = SourceMap::new();
-        let file = (sources.add(&name, read(path)?)).map_err(|error| error.to_string())?;
-        let checked = listing::check(file, dialect);
-        let Some(program) = checked.accepted().cloned() else {
-            return Err(refused(&name, sources, checked.diagnostics));
-        };
+        let (program, warnings) = shader(&arguments, &name, read(path)?, dialect, &mut sources)
+            .map_err(|why| match why {
+                Refused::Words(why) => format!("{name}: {why}").into(),
+                Refused::Diagnostics(found) => refused(&name, std::mem::take(&mut sources), found),
+            })?;
         let kernel = kernel::lower(&program, &kernel::Options::default())
             .map_err(|error| format!("{name}: {error}"))?;
         let mut given = Given::default();
@@ -142,7 +149,7 @@ impl Loaded {
             arguments,
             what: What::Listing(Box::new(ByHand {
                 sources,
-                warnings: checked.diagnostics,
+                warnings,
                 program,
                 kernel,
                 given,
@@ -226,6 +233,56 @@ impl Loaded {
             Some(draw) => format!("{program}, draw `{draw}`: {error}"),
             None => format!("{program}: {error}"),
         }
+    }
+}
+
+/// Why a file gives no shader to debug.
+enum Refused {
+    Words(String),
+    Diagnostics(Vec<Diagnostic>),
+}
+
+/// The shader of a file that is meant, and what is worth telling of it.
+fn shader(
+    arguments: &LaunchArguments,
+    name: &str,
+    bytes: Vec<u8>,
+    dialect: Dialect,
+    sources: &mut SourceMap,
+) -> Result<(Program, Vec<Diagnostic>), Refused> {
+    let words = |why: &dyn std::error::Error| Refused::Words(why.to_string());
+    let cwd = Path::new(arguments.cwd.as_deref().unwrap_or_default());
+    let folders = arguments.includes.iter().flatten();
+    let folders: Vec<PathBuf> = folders.map(|folder| cwd.join(folder)).collect();
+    let definitions = arguments.defines.iter().flatten();
+    let definitions: Result<Vec<Definition>, _> = definitions.map(|text| text.parse()).collect();
+    let options = listing::Options {
+        dialect,
+        preprocess: preprocess::Options {
+            definitions: &definitions.map_err(|why| words(&why))?,
+            resolver: &Folders {
+                file: name,
+                folders: &folders,
+            },
+        },
+        ..Default::default()
+    };
+    let file = extract::open(sources, name, bytes, &options.preprocess);
+    let file = file.map_err(|why| words(&why))?;
+    let shader = match file.one(arguments.shader.as_deref()) {
+        Ok(shader) => shader,
+        Err(NotOne::Nothing) if any_error(&file.diagnostics) => {
+            return Err(Refused::Diagnostics(file.diagnostics));
+        }
+        Err(why) => return Err(words(&why)),
+    };
+    let checked = extract::check(sources, shader, &options).map_err(|why| words(&why))?;
+    let accepted = checked.accepted().cloned();
+    let mut found = file.diagnostics;
+    found.extend(checked.diagnostics);
+    match accepted {
+        Some(program) if !any_error(&found) => Ok((program, found)),
+        _ => Err(Refused::Diagnostics(found)),
     }
 }
 

@@ -85,14 +85,14 @@ const NEVER: [(&str, &str, &str); 31] = [
     ("ps.1.3", "mov_x2_x2 r0, r1", "P12"),
     ("ps.1.4", "texld r5, -r2_dz", "P15"),
     ("ps.1.3", "mov r1, 2 - r0", "P15"),
-    ("vs.1.1", "mov r2, 1 - r1", "P15"),
-    ("vs.1.1", "mov r2, r1_x2", "P15"),
+    ("vs.1.1", "mov r2, 1 - r1", "O23"),
+    ("vs.1.1", "mov r2, r1_x2", "O23"),
     ("vs.1.1", "mov r2, r1_abs", "P15"),
     ("vs.1.1", "mov r1.abcd, r0", "P14"),
     ("vs.1.1", "mov r0, r1.xyzwx", "P14"),
     ("vs.1.1", "mov r0, r1.", "P14"),
-    ("vs.1.1", "mov r0.xxyz, r1", "P14"),
-    ("vs.1.1", "mov r0.yx, r1", "P14"),
+    ("vs.1.1", "mov r0.xxyz, r1", "O24"),
+    ("vs.1.1", "mov r0.yx, r1", "O24"),
     ("vs.1.1", "mov r0, r1.xg", "P14"),
     ("vs.1.1", "mov r0, r1.stp", "P14"),
     ("ps.1.3", "add oC0, r0, r1", "P13"),
@@ -107,11 +107,11 @@ const NEVER: [(&str, &str, &str); 31] = [
     ("vs.1.1", "mov r0, c[4294967295 + 1]", "P16"),
     ("any", "mov r0, r1, r2", "P10"),
     ("vs.1.1", "mov r0, s0", "P13"),
-    ("ps.1.1", "mov r0, -1-r1", "P15"),
-    ("ps.1.1", "mov r0, 1-r1_bx2", "P15"),
+    ("ps.1.1", "mov r0, -1-r1", "M4"),
+    ("ps.1.1", "mov r0, 1-r1_bx2", "M4"),
     ("ps.1.1", "mov r0, --r1", "P15"),
     ("ps.1.1", "mul r0, r0_sat, r1", "P15"),
-    ("vs.1.1", "mov_sat r0, r1", "P12"),
+    ("vs.1.1", "mov_sat r0, r1", "O23"),
     ("ps.1.1", "mov r0, 0.5", "P13"),
 ];
 
@@ -190,7 +190,7 @@ fn numbers() {
         assert_eq!(found[0].0, "P17", "{wrong}");
     }
     for wrong in ["1, 2, 3", "1, 2, 3, 4, 5", "0,9f, 0.0f, 0.0f, 0.0f"] {
-        assert_eq!(found(format!("vs.1.1\ndef c0, {wrong}\nnop"))[0].0, "P10");
+        assert_eq!(found(format!("vs.1.1\ndef c0, {wrong}\nnop"))[0].0, "O25");
     }
 }
 

@@ -187,18 +187,7 @@ fn remarks(session: &Session<'_>) -> String {
         return String::new();
     };
     let lane = run.lane & 3;
-    let mut all = Flags::default();
-    for moment in last_step(session) {
-        let flags = moment.flags[lane];
-        all = Flags {
-            saturated: all.saturated.or(flags.saturated),
-            clamped: all.clamped.or(flags.clamped),
-            nan: all.nan.or(flags.nan),
-            infinite: all.infinite.or(flags.infinite),
-            out_of_range: all.out_of_range || flags.out_of_range,
-            uninitialised: all.uninitialised || flags.uninitialised,
-        };
-    }
+    let all = (last_step(session).iter()).fold(Flags::default(), |all, m| all.or(m.flags[lane]));
     let letters = run.listing.program.letters();
     let masks = [
         (all.nan, "NaN"),

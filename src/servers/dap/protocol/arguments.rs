@@ -37,6 +37,12 @@ pub(in crate::servers) struct LaunchArguments {
     pub set: Option<BTreeMap<String, Numbers>>,
     /// By whose rules.
     pub dialect: Option<String>,
+    /// Of a file with several listings, the one that is meant: its name, or its number from 1.
+    pub shader: Option<String>,
+    /// Macros, each `NAME` or `NAME=VALUE`.
+    pub defines: Option<Vec<String>>,
+    /// Folders in which included files are looked for, too.
+    pub includes: Option<Vec<String>>,
     /// Whether to stop before the first instruction; true if not given.
     pub stop_on_entry: Option<bool>,
     /// The folder that a relative `program` starts from.

@@ -429,6 +429,56 @@ fn what_is_wrong_with_a_listing_is_told_with_its_place() {
 }
 
 #[test]
+fn listings_include_files_and_live_in_effects() {
+    let effect = "technique T {\n pass P {\n  VertexShader = asm {\n   vs.1.1\n   mov oPos, v0\n  };\n  PixelShader = asm {\n   \
+                  ps.1.1\n   mov r0, COLOR\n  };\n }\n}\n";
+    let folder = Folder::new(&[
+        (
+            "a.psh",
+            "#include \"names.h\"\nps.1.1\nmov r0, COLOR\nmov r0, GLOW\n",
+        ),
+        ("names.h", "#define COLOR c1\n"),
+        ("b.fx", effect),
+        ("scene.toml", ""),
+    ]);
+    // The macro of the file leads back to line 3 of the listing, the one of the launch to line 4.
+    let mut client = Client::new();
+    let launch =
+        json!({ "program": folder.path("a.psh"), "defines": ["GLOW=v0"], "set": { "c1": [0.5] } });
+    client.done("launch", launch);
+    client.done("configurationDone", json!({}));
+    assert_eq!(client.place(), (3, "ps.1.1 shader".to_string()));
+    client.done("next", json!({ "threadId": 1 }));
+    assert_eq!(client.place(), (4, "ps.1.1 shader".to_string()));
+
+    let with = |shader: &str| json!({ "program": folder.path("b.fx"), "shader": shader, "defines": ["COLOR=c1"] });
+    let mut client = Client::new();
+    client.done("launch", with("2"));
+    client.done("configurationDone", json!({}));
+    assert_eq!(client.place(), (9, "ps.1.1 shader".to_string()));
+
+    let mut client = Client::new();
+    client.refused(
+        "launch",
+        json!({ "program": folder.path("b.fx") }),
+        "several shaders",
+    );
+    client.refused(
+        "launch",
+        with("glow"),
+        "there is no shader `glow`; it is one of",
+    );
+    let of_a_scene =
+        json!({ "program": folder.path("scene.toml"), "pixel": [0, 0], "shader": "1" });
+    client.refused("launch", of_a_scene, "`shader` is for listings");
+    client.refused(
+        "launch",
+        json!({ "program": folder.path("a.psh"), "defines": ["1=2"] }),
+        "1=2",
+    );
+}
+
+#[test]
 fn a_program_that_is_not_debugged_runs_through() {
     let folder = folder();
     let mut client = Client::new();

@@ -1,16 +1,19 @@
 //! Files that listings include, on disk.
 
+use super::resolve::{Included, Resolver};
+use crate::diagnostic::SourceMap;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use texcrd::diagnostic::SourceMap;
-use texcrd::preprocess::{Included, Resolver};
 
-/// Looks for included files beside the file that includes them and in the folders of `-I`, as compilers do.
-pub(super) struct Folders<'a> {
-    /// The file that is read; `-` is standard input, which lies in the current folder.
-    pub(super) file: &'a str,
-    pub(super) folders: &'a [PathBuf],
+/// Looks for included files on disk: beside the file that includes them and in further folders, as compilers do. In angle
+/// brackets the folders come first.
+#[derive(Clone, Copy, Debug)]
+pub struct Folders<'a> {
+    /// The path of the file that is read; `-` is standard input, which lies in the current folder.
+    pub file: &'a str,
+    /// The further folders, those of `-I`, in their order.
+    pub folders: &'a [PathBuf],
 }
 
 impl Resolver for Folders<'_> {
