@@ -7,6 +7,7 @@
 //!
 //! Adding an instruction is one row in [`opcode`], one meaning, one WGSL form and one test case.
 
+mod mnemonic;
 pub mod modifier;
 pub mod opcode;
 pub mod operand;

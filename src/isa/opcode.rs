@@ -207,21 +207,6 @@ impl Opcode {
             .fold(VersionSet::NONE, |set, form| set.and(form.versions))
     }
 
-    /// The opcode with this mnemonic, in any case of letters.
-    pub fn from_mnemonic(mnemonic: &str) -> Option<Self> {
-        if mnemonic.len() > LONGEST_MNEMONIC {
-            return None;
-        }
-        let mut slot = first_slot(mnemonic.as_bytes());
-        loop {
-            let row = OPCODES.get(usize::from(*BY_MNEMONIC.get(slot)?))?;
-            if row.mnemonic.eq_ignore_ascii_case(mnemonic) {
-                return Some(row.opcode);
-            }
-            slot = (slot + 1) % SLOTS;
-        }
-    }
-
     /// The opcode with this token number in this version.
     pub fn from_token(token: u16, version: Version) -> Option<Self> {
         OPCODES
@@ -470,7 +455,7 @@ const ROW: &[SourceShape] = &[texel(XYZ, PS13)];
 
 /// One row an opcode, in the order of [`Opcode`].
 #[rustfmt::skip]
-static OPCODES: [OpcodeRow; 54] = [
+pub(super) static OPCODES: [OpcodeRow; 54] = [
     op(Opcode::Nop, "nop", 0x00, &[
         bare(VS, Class::Arithmetic, "nothing").costs(1, 0),
         bare(PS, Class::Arithmetic, "nothing").costs(0, 0),
@@ -559,49 +544,3 @@ static OPCODES: [OpcodeRow; 54] = [
         "d.rg = s0.rg + bump matrix of stage d * s1.rg").costs(2, 0).at_most(1)]),
     op(Opcode::Phase, "phase", 0xFFFD, &[bare(PS14, Class::Phase, "ends the first phase").at_most(1)]),
 ];
-
-// --- mnemonics by a hash, so that a word is compared with one or two of them and not with all ---
-
-/// How many slots [`BY_MNEMONIC`] has: more than twice as many as there are mnemonics, so that few share one.
-const SLOTS: usize = 128;
-
-/// Stands in [`BY_MNEMONIC`] where no mnemonic does; no row has this number.
-const EMPTY: u8 = u8::MAX;
-
-/// The length of the longest mnemonic.
-const LONGEST_MNEMONIC: usize = {
-    let (mut longest, mut i) = (0, 0);
-    while i < OPCODES.len() {
-        let length = OPCODES[i].mnemonic.len();
-        if length > longest {
-            longest = length;
-        }
-        i += 1;
-    }
-    longest
-};
-
-/// The slot in which the search for a mnemonic begins; the same for letters of either case.
-const fn first_slot(mnemonic: &[u8]) -> usize {
-    let (mut hash, mut i) = (0u32, 0);
-    while i < mnemonic.len() {
-        hash = hash.wrapping_mul(33) ^ (mnemonic[i] | 0x20) as u32;
-        i += 1;
-    }
-    (hash ^ hash >> 7) as usize % SLOTS
-}
-
-/// The numbers of the rows, each in the first slot from that of its mnemonic on which was free.
-static BY_MNEMONIC: [u8; SLOTS] = {
-    let mut slots = [EMPTY; SLOTS];
-    let mut row = 0;
-    while row < OPCODES.len() {
-        let mut slot = first_slot(OPCODES[row].mnemonic.as_bytes());
-        while slots[slot] != EMPTY {
-            slot = (slot + 1) % SLOTS;
-        }
-        slots[slot] = row as u8;
-        row += 1;
-    }
-    slots
-};

@@ -151,9 +151,16 @@ impl RegisterFile {
     }
 
     /// Whether a version of this kind has the file.
-    pub fn exists_in(self, kind: ShaderKind) -> bool {
-        Version::all().any(|v| v.kind() == kind && self.count(v) > 0)
+    pub const fn exists_in(self, kind: ShaderKind) -> bool {
+        let set = match kind {
+            ShaderKind::Vertex => Self::OF_VERTEX_SHADERS,
+            ShaderKind::Pixel => Self::OF_PIXEL_SHADERS,
+        };
+        set.contains(self)
     }
+
+    const OF_VERTEX_SHADERS: FileSet = of_versions(VersionSet::VS);
+    const OF_PIXEL_SHADERS: FileSet = of_versions(VersionSet::PS);
 
     /// The name of register `index` of this file as listings write it: `r3`, `a0`, `oPos`, `oT2`.
     pub fn register_name(self, index: u32) -> String {
@@ -174,32 +181,61 @@ impl RegisterFile {
 
     /// The register that listings write like this, in letters of either case, whether a version has it or not: the other way from
     /// [`Self::register_name`].
-    pub fn named(name: &str) -> Option<(Self, u32)> {
-        if let Some(i) = RAST_OUT.iter().position(|n| n.eq_ignore_ascii_case(name)) {
+    pub fn named(name: impl AsRef<[u8]>) -> Option<(Self, u32)> {
+        let name = name.as_ref();
+        let is = |other: &&str| other.as_bytes().eq_ignore_ascii_case(name);
+        if let Some(i) = RAST_OUT.iter().position(|other| is(&other)) {
             return Some((Self::RastOut, i as u32));
         }
         let (file, digits) = Self::parts(name)?;
-        Some((file, digits.parse().ok()?))
+        Some((file, number(digits)?))
     }
 
     /// The file of the registers that begin with the letters of this name, in either case, and the digits behind
     /// them, which may be none. `None` if it is not letters of a file with digits alone behind them.
-    pub fn parts(name: &str) -> Option<(Self, &str)> {
-        let digit = name.bytes().position(|b| b.is_ascii_digit());
+    pub fn parts(name: &[u8]) -> Option<(Self, &[u8])> {
+        let digit = name.iter().position(u8::is_ascii_digit);
         let (letters, digits) = name.split_at_checked(digit.unwrap_or(name.len()))?;
-        let fits =
-            |file: &Self| *file != Self::RastOut && file.row().prefix.eq_ignore_ascii_case(letters);
+        let fits = |file: &Self| {
+            let prefix = file.row().prefix.as_bytes();
+            *file != Self::RastOut && prefix.eq_ignore_ascii_case(letters)
+        };
         let file = Self::all().find(fits)?;
-        digits
-            .bytes()
-            .all(|b| b.is_ascii_digit())
-            .then_some((file, digits))
+        let whole = digits.iter().all(u8::is_ascii_digit);
+        whole.then_some((file, digits))
     }
 
     /// The set that holds only this file.
     pub const fn only(self) -> FileSet {
         FileSet(1 << self as u8)
     }
+}
+
+/// The number that digits write, if it is one of 32 bits.
+pub(crate) fn number(digits: &[u8]) -> Option<u32> {
+    if digits.is_empty() {
+        return None;
+    }
+    digits.iter().try_fold(0u32, |number, digit| {
+        let digit = char::from(*digit).to_digit(10)?;
+        number.checked_mul(10)?.checked_add(digit)
+    })
+}
+
+/// The files that one of these versions has.
+const fn of_versions(versions: VersionSet) -> FileSet {
+    let (mut bits, mut file) = (0, 0);
+    while file < FILES.len() {
+        let mut version = 0;
+        while version < FILES[file].count.len() {
+            if FILES[file].count[version] > 0 && versions.has_number(version) {
+                bits |= FILES[file].file.only().0;
+            }
+            version += 1;
+        }
+        file += 1;
+    }
+    FileSet(bits)
 }
 
 /// A set of register files: those that an operand may name.

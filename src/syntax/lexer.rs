@@ -61,8 +61,10 @@ pub(super) fn tokens(text: &[u8]) -> Vec<Token> {
 
 /// The tokens of a text.
 pub(super) struct Lexed {
-    /// Never empty: [`Kind::End`] is the last.
+    /// Never empty: `end` is the last.
     pub(super) tokens: Vec<Token>,
+    /// A token of [`Kind::End`].
+    pub(super) end: Token,
     /// Whether a directive was met that may define names.
     pub(super) names_missing: bool,
     /// The comments that belong to the tokens of the shader; before which statement they stand is not known yet.
@@ -99,7 +101,7 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
     let mut tokens = Vec::with_capacity((text.len() / BYTES_A_TOKEN).min(FIRST_TOKENS));
     let mut rest = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut first = true;
-    loop {
+    let end = loop {
         let (after, new_line) = lexer.skip_space(rest, first);
         first |= new_line;
         rest = after;
@@ -112,19 +114,15 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
             first,
             stem: Stem::NONE,
         };
-        // `token` fails only at the end of the text.
+        let end = Token {
+            first: true,
+            ..token(Kind::End, start)
+        };
+        // `any_token` fails only at the end of the text.
         let Ok((after, kind)) = any_token(rest) else {
-            tokens.push(Token {
-                first: true,
-                ..token(Kind::End, start)
-            });
-            break;
+            break end;
         };
         if tokens.len() == most {
-            tokens.push(Token {
-                first: true,
-                ..token(Kind::End, start)
-            });
             let message = format!(
                 "more than {MOST_TOKENS} words and signs: no listing is so long, the rest is not read"
             );
@@ -132,7 +130,7 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
             lexer
                 .reports
                 .push(Diagnostic::error(&rules::NOT_A_LISTING, span, message));
-            break;
+            break end;
         }
         let mut token = token(kind, lexer.offset(after));
         if kind == Kind::Word {
@@ -141,9 +139,11 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
         tokens.push(token);
         rest = after;
         first = false;
-    }
+    };
+    tokens.push(end);
     Lexed {
         tokens,
+        end,
         names_missing: !lexer.directives.is_empty(),
         comments: lexer.comments,
     }
@@ -193,10 +193,12 @@ impl<'a> Lexer<'a, '_> {
                     rest = after;
                 }
                 [b'#', ..] if first => rest = self.directive(rest),
-                _ => match space(rest) {
-                    Ok((after, ())) => rest = after,
-                    Err(_) => return (rest, new_line),
-                },
+                // A no-break space.
+                [0xC2, 0xA0, after @ ..] => rest = after,
+                [blank, ..] if is_blank(*blank) => {
+                    rest = blanks(rest).map_or(&[], |(after, _)| after);
+                }
+                _ => return (rest, new_line),
             }
         }
     }
@@ -279,16 +281,13 @@ impl<'a> Lexer<'a, '_> {
 
 // --- the grammar of single tokens ---
 
-/// Blanks within a line; a no-break space and the end-of-file mark of DOS among them.
-fn space(input: &[u8]) -> IResult<&[u8], ()> {
-    value(
-        (),
-        alt((
-            take_while1(|b: u8| matches!(b, b' ' | b'\t' | b'\r' | 0x0B | 0x0C | 0x1A)),
-            tag(&b"\xC2\xA0"[..]),
-        )),
-    )
-    .parse(input)
+/// Whether a byte is a blank within a line, as the end-of-file mark of DOS is.
+fn is_blank(b: u8) -> bool {
+    matches!(b, b' ' | b'\t' | b'\r' | 0x0B | 0x0C | 0x1A)
+}
+
+fn blanks(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    take_while(is_blank).parse(input)
 }
 
 fn to_line_end(input: &[u8]) -> IResult<&[u8], &[u8]> {

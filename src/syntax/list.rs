@@ -74,6 +74,7 @@ impl Parser<'_> {
     /// Reads operands and the commas between them. `expected` is how many the mnemonic takes, if there is one.
     pub(super) fn operand_list(&mut self, expected: Option<usize>) -> List {
         let mut list = List::default();
+        list.operands.reserve(expected.unwrap_or(0));
         loop {
             let (operand, comma_read) = self.operand(list.operands.is_empty());
             list.operands.push(operand);

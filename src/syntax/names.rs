@@ -3,6 +3,7 @@
 use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
 use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
+use crate::isa::register::number;
 use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
 use crate::program::Usage;
 
@@ -209,13 +210,14 @@ pub(super) enum Name {
 }
 
 /// The register that a word names, whether the version has it or not.
-pub(super) fn exact_register(stem: &str) -> Option<Name> {
+pub(super) fn exact_register(stem: impl AsRef<[u8]>) -> Option<Name> {
+    let stem = stem.as_ref();
     match RegisterFile::parts(stem) {
-        Some((file, "")) => Some(Name::File(file)),
-        Some((file, digits)) => {
-            let number = digits.parse();
-            Some(number.map_or(Name::TooLarge, |number| Name::Register(file, number)))
-        }
+        Some((file, [])) => Some(Name::File(file)),
+        Some((file, digits)) => Some(match number(digits) {
+            Some(number) => Name::Register(file, number),
+            None => Name::TooLarge,
+        }),
         None => RegisterFile::named(stem).map(|(file, number)| Name::Register(file, number)),
     }
 }
@@ -240,15 +242,14 @@ impl Stem {
 
     pub(super) fn of(word: &[u8]) -> Self {
         let length = word.iter().position(|b| *b == b'_').unwrap_or(word.len());
-        let text = word.get(..length).and_then(|s| std::str::from_utf8(s).ok());
-        let text = text.unwrap_or("");
-        let opcode = Opcode::from_mnemonic(text);
+        let stem = word.get(..length).unwrap_or(word);
+        let opcode = Opcode::from_mnemonic(stem);
         Self {
             length: length as u32,
             opcode,
             // No mnemonic is a register, which a test of `isa` holds.
             register: match opcode {
-                None => exact_register(text),
+                None => exact_register(stem),
                 Some(_) => None,
             },
         }

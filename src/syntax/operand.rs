@@ -405,8 +405,10 @@ impl<'a> Parser<'a> {
         let end = start + text.len() as u32;
         let span = Span::new(start, end);
         operand.components_span = span;
+        let letters = names::letters(text);
         // `r4.x2`: the suffix of a modifier, behind a dot instead of an underscore.
-        if names::has_source_suffixes(self.version)
+        if !matches!(letters, Letters::Exact(_))
+            && names::has_source_suffixes(self.version)
             && names::is_source_suffix_stem(text)
             && suffix.is_empty()
         {
@@ -420,7 +422,7 @@ impl<'a> Parser<'a> {
         if suffix.is_empty() && self.split_mask(operand, text, span) {
             return false;
         }
-        self.components(operand, text, span);
+        self.components(operand, letters, text, span);
         if !suffix.is_empty() {
             let at = Span::new(end, end + suffix.len() as u32);
             if operand.suffix.is_empty() && names::source_suffix(suffix) != Found::No {
@@ -465,9 +467,15 @@ impl<'a> Parser<'a> {
         true
     }
 
-    fn components(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
+    /// What the letters behind the dot, which are `text`, name.
+    fn components(
+        &mut self,
+        operand: &mut WrittenRegister,
+        mut found: Letters,
+        text: &str,
+        span: Span,
+    ) {
         let quoted = || quote(text.as_bytes());
-        let mut found = names::letters(text);
         let (message, help) = match &mut found {
             Letters::Exact(components) => {
                 operand.components = Some(*components);
@@ -525,11 +533,11 @@ impl<'a> Parser<'a> {
 
     /// `r4 x2`: a suffix whose underscore is lost.
     fn lost_underscore(&mut self, operand: &mut WrittenRegister) {
-        let (before, next) = (self.previous(), self.peek());
+        let next = self.peek();
         if next.first || next.kind != Kind::Word {
             return;
         }
-        let word = self.word(next);
+        let (before, word) = (self.previous(), self.word(next));
         if !names::is_source_suffix_stem(word) {
             return;
         }

@@ -11,8 +11,12 @@ use crate::program::{Register, Statement};
 /// Reads the statements of one text.
 pub(super) struct Parser<'a> {
     pub(super) text: &'a [u8],
+    /// The same as text, of the same length: words and numbers as they are, of which all bytes are ASCII.
+    pub(super) words: &'a str,
     pub(super) base: u32,
     pub(super) tokens: Vec<Token>,
+    /// The last of them.
+    pub(super) end: Token,
     pub(super) at: usize,
     pub(super) version: Version,
     /// Whether names may have been defined that are not known here.
@@ -54,16 +58,7 @@ impl<'a> Parser<'a> {
 
     /// Token number `at`; [`Kind::End`] behind the last.
     pub(super) fn token(&self, at: usize) -> Token {
-        const END: Token = Token {
-            kind: Kind::End,
-            start: 0,
-            end: 0,
-            line: 0,
-            first: true,
-            stem: Stem::NONE,
-        };
-        let last = || self.tokens.last().copied().unwrap_or(END);
-        self.tokens.get(at).copied().unwrap_or_else(last)
+        self.tokens.get(at).copied().unwrap_or(self.end)
     }
 
     /// Takes the next token; stays at the end.
@@ -91,9 +86,10 @@ impl<'a> Parser<'a> {
             .unwrap_or(&[])
     }
 
-    /// The text of a token; empty if it is no text, which only junk is.
+    /// The text of a word or a number.
     pub(super) fn word(&self, token: Token) -> &'a str {
-        std::str::from_utf8(self.bytes(token)).unwrap_or("")
+        let range = token.start as usize..token.end as usize;
+        self.words.get(range).unwrap_or("")
     }
 
     pub(super) fn quoted(&self, token: Token) -> String {

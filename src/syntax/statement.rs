@@ -554,7 +554,7 @@ impl Parser<'_> {
             whole &= destination.is_some();
             destination
         });
-        let mut sources = Vec::new();
+        let mut sources = Vec::with_capacity(operands.len());
         for operand in operands {
             match self.source(operand) {
                 Some(source) => sources.push(source),
