@@ -183,12 +183,10 @@ impl RegisterFile {
     /// [`Self::register_name`].
     pub fn named(name: impl AsRef<[u8]>) -> Option<(Self, u32)> {
         let name = name.as_ref();
-        let is = |other: &&str| other.as_bytes().eq_ignore_ascii_case(name);
-        if let Some(i) = RAST_OUT.iter().position(|other| is(&other)) {
-            return Some((Self::RastOut, i as u32));
+        match Self::parts(name) {
+            Some((file, digits)) => Some((file, number(digits)?)),
+            None => Some((Self::RastOut, rast_out(name)?)),
         }
-        let (file, digits) = Self::parts(name)?;
-        Some((file, number(digits)?))
     }
 
     /// The file of the registers that begin with the letters of this name, in either case, and the digits behind
@@ -196,19 +194,51 @@ impl RegisterFile {
     pub fn parts(name: &[u8]) -> Option<(Self, &[u8])> {
         let digit = name.iter().position(u8::is_ascii_digit);
         let (letters, digits) = name.split_at_checked(digit.unwrap_or(name.len()))?;
-        let fits = |file: &Self| {
-            let prefix = file.row().prefix.as_bytes();
-            *file != Self::RastOut && prefix.eq_ignore_ascii_case(letters)
-        };
-        let file = Self::all().find(fits)?;
+        let key = prefix_key(letters)?;
+        let row = FILES.get(PREFIX_KEYS.iter().position(|other| *other == key)?)?;
         let whole = digits.iter().all(u8::is_ascii_digit);
-        whole.then_some((file, digits))
+        whole.then_some((row.file, digits))
     }
 
     /// The set that holds only this file.
     pub const fn only(self) -> FileSet {
         FileSet(1 << self as u8)
     }
+}
+
+/// The letters before a number, one or two, as a number of its own: the same for letters of either case.
+const fn prefix_key(letters: &[u8]) -> Option<u16> {
+    match letters {
+        [one] => Some(one.to_ascii_lowercase() as u16),
+        [one, two] => {
+            let high = (one.to_ascii_lowercase() as u16) << 8;
+            Some(high | two.to_ascii_lowercase() as u16)
+        }
+        _ => None,
+    }
+}
+
+/// [`prefix_key`] of each file; 0, which is none, where registers have names instead of numbers.
+static PREFIX_KEYS: [u16; FILES.len()] = {
+    let mut keys = [0; FILES.len()];
+    let mut i = 0;
+    while i < FILES.len() {
+        if !matches!(FILES[i].file, RegisterFile::RastOut) {
+            keys[i] = match prefix_key(FILES[i].prefix.as_bytes()) {
+                Some(key) => key,
+                None => panic!("a prefix is one or two letters"),
+            };
+        }
+        i += 1;
+    }
+    keys
+};
+
+/// The register of [`RegisterFile::RastOut`] with this name, in letters of either case.
+pub(crate) fn rast_out(name: &[u8]) -> Option<u32> {
+    let same = |other: &&str| other.as_bytes().eq_ignore_ascii_case(name);
+    let number = RAST_OUT.iter().position(|other| same(&other))?;
+    Some(number as u32)
 }
 
 /// The number that digits write, if it is one of 32 bits.

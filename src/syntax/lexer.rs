@@ -11,8 +11,7 @@ use crate::program::Comment;
 use nom::branch::alt;
 use nom::bytes::complete::{tag, tag_no_case, take_until, take_while, take_while1};
 use nom::character::complete::{digit0, digit1, one_of};
-use nom::combinator::{map, map_opt, opt, recognize, rest, value};
-use nom::number::complete::u8 as byte;
+use nom::combinator::{map, opt, recognize, rest, value};
 use nom::{IResult, Parser};
 
 /// What a token is.
@@ -106,21 +105,17 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
         first |= new_line;
         rest = after;
         let start = lexer.offset(rest);
-        let token = |kind, end| Token {
-            kind,
+        let mut token = Token {
+            kind: Kind::End,
             start,
-            end,
+            end: start,
             line: lexer.line,
-            first,
-            stem: Stem::NONE,
-        };
-        let end = Token {
             first: true,
-            ..token(Kind::End, start)
+            stem: Stem::NONE,
         };
         // `any_token` fails only at the end of the text.
         let Ok((after, kind)) = any_token(rest) else {
-            break end;
+            break token;
         };
         if tokens.len() == most {
             let message = format!(
@@ -130,9 +125,9 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
             lexer
                 .reports
                 .push(Diagnostic::error(&rules::NOT_A_LISTING, span, message));
-            break end;
+            break token;
         }
-        let mut token = token(kind, lexer.offset(after));
+        (token.kind, token.end, token.first) = (kind, lexer.offset(after), first);
         if kind == Kind::Word {
             token.stem = Stem::of(rest.get(..rest.len() - after.len()).unwrap_or(rest));
         }
@@ -352,20 +347,6 @@ fn word(input: &[u8]) -> IResult<&[u8], Kind> {
     value(Kind::Word, take_while1(is_word)).parse(input)
 }
 
-fn sign(input: &[u8]) -> IResult<&[u8], Kind> {
-    let kind = |sign: u8| match sign {
-        b',' => Some(Kind::Comma),
-        b'.' => Some(Kind::Dot),
-        b'+' => Some(Kind::Plus),
-        b'-' => Some(Kind::Minus),
-        b'[' => Some(Kind::Open),
-        b']' => Some(Kind::Close),
-        b':' => Some(Kind::Colon),
-        _ => None,
-    };
-    map_opt(byte, kind).parse(input)
-}
-
 /// En dash, em dash, hyphen and minus sign in UTF-8, and the en dash of code page 1252.
 fn dash(input: &[u8]) -> IResult<&[u8], Kind> {
     value(
@@ -389,12 +370,20 @@ fn junk(input: &[u8]) -> IResult<&[u8], Kind> {
     value(Kind::Junk, alt((take_while1(plain), one))).parse(input)
 }
 
-/// One token of any kind. Its first byte says which are to be tried.
+/// One token of any kind. Its first bytes say which are to be tried.
 fn any_token(input: &[u8]) -> IResult<&[u8], Kind> {
-    match input.first() {
-        Some(b'v' | b'V' | b'p' | b'P' | b'x' | b'X') => alt((version, word)).parse(input),
-        Some(b'0'..=b'9' | b'.') => alt((number_or_word, sign)).parse(input),
-        Some(first) if is_word(*first) => word(input),
-        _ => alt((sign, dash, junk)).parse(input),
+    match input {
+        [b',', after @ ..] => Ok((after, Kind::Comma)),
+        [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..] => number_or_word(input),
+        [b'.', after @ ..] => Ok((after, Kind::Dot)),
+        [b'v' | b'V' | b'p' | b'P', b's' | b'S', ..]
+        | [b'x' | b'X', b'v' | b'V' | b'p' | b'P', ..] => alt((version, word)).parse(input),
+        [first, ..] if is_word(*first) => word(input),
+        [b'+', after @ ..] => Ok((after, Kind::Plus)),
+        [b'-', after @ ..] => Ok((after, Kind::Minus)),
+        [b'[', after @ ..] => Ok((after, Kind::Open)),
+        [b']', after @ ..] => Ok((after, Kind::Close)),
+        [b':', after @ ..] => Ok((after, Kind::Colon)),
+        _ => alt((dash, junk)).parse(input),
     }
 }

@@ -3,7 +3,7 @@
 use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
 use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
-use crate::isa::register::number;
+use crate::isa::register::{number, rast_out};
 use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
 use crate::program::Usage;
 
@@ -218,7 +218,7 @@ pub(super) fn exact_register(stem: impl AsRef<[u8]>) -> Option<Name> {
             Some(number) => Name::Register(file, number),
             None => Name::TooLarge,
         }),
-        None => RegisterFile::named(stem).map(|(file, number)| Name::Register(file, number)),
+        None => Some(Name::Register(RegisterFile::RastOut, rast_out(stem)?)),
     }
 }
 
@@ -243,15 +243,15 @@ impl Stem {
     pub(super) fn of(word: &[u8]) -> Self {
         let length = word.iter().position(|b| *b == b'_').unwrap_or(word.len());
         let stem = word.get(..length).unwrap_or(word);
-        let opcode = Opcode::from_mnemonic(stem);
+        let register = exact_register(stem);
         Self {
             length: length as u32,
-            opcode,
-            // No mnemonic is a register, which a test of `isa` holds.
-            register: match opcode {
-                None => exact_register(stem),
+            // No register is a mnemonic, which a test of `isa` holds.
+            opcode: match register {
+                None => Opcode::from_mnemonic(stem),
                 Some(_) => None,
             },
+            register,
         }
     }
 }

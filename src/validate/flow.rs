@@ -91,7 +91,7 @@ fn reads(
     temporaries: &mut [Temporary; TEMPORARIES],
     report: &mut Report,
 ) {
-    for read in line.reads() {
+    for read in listing.reads(line) {
         if read.register.file != RegisterFile::Temp
             || !listing.exists(read.register)
             || listing.hides_write(read.register, read.span)
@@ -102,9 +102,9 @@ fn reads(
             continue;
         };
         if line.instruction.opcode == Opcode::TexLd {
-            dependent_read(listing, line, &read, temporary, report);
+            dependent_read(listing, line, read, temporary, report);
         } else {
-            component_read(listing, &read, temporary, report);
+            component_read(listing, read, temporary, report);
         }
     }
 }

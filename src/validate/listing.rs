@@ -27,6 +27,8 @@ pub(super) struct Line<'p> {
     pub(super) phase: Phase,
     /// Whether it is the second half of a pair with the line before it.
     pub(super) joined: bool,
+    /// Where its reads begin and end among those of the listing.
+    reads: (usize, usize),
 }
 
 /// A register that an instruction reads.
@@ -45,6 +47,8 @@ pub(super) struct Listing<'p> {
     pub(super) version: Version,
     pub(super) lines: Vec<Line<'p>>,
     pub(super) has_phase: bool,
+    /// What the lines read, one after the other.
+    reads: Vec<Read>,
     unread: Unread,
 }
 
@@ -79,14 +83,19 @@ impl<'p> Listing<'p> {
         } else {
             Phase::Second
         };
-        let mut lines: Vec<Line<'p>> = Vec::new();
+        let most = program.statements.len();
+        let mut lines: Vec<Line<'p>> = Vec::with_capacity(most);
+        let mut reads = Vec::with_capacity(2 * most);
         for instruction in program.instructions() {
             let mut line = Line {
                 instruction,
                 form: instruction.opcode.form(version),
                 phase,
                 joined: false,
+                reads: (reads.len(), 0),
             };
+            line.add_reads(&mut reads);
+            line.reads.1 = reads.len();
             line.joined = instruction.co_issue
                 && line.can_pair()
                 && lines.last().is_some_and(|l| l.can_pair() && !l.joined);
@@ -100,8 +109,14 @@ impl<'p> Listing<'p> {
             version,
             lines,
             has_phase,
+            reads,
             unread: Unread::new(unread),
         }
+    }
+
+    /// What a line reads, the rows of a matrix one by one.
+    pub(super) fn reads(&self, line: &Line) -> &[Read] {
+        self.reads.get(line.reads.0..line.reads.1).unwrap_or(&[])
     }
 
     pub(super) fn is_pixel(&self) -> bool {
@@ -184,13 +199,11 @@ impl Line<'_> {
         self.form.is_none() || self.is_arithmetic()
     }
 
-    /// What it reads, the rows of a matrix one by one.
-    pub(super) fn reads(&self) -> Vec<Read> {
+    fn add_reads(&self, reads: &mut Vec<Read>) {
         let Some(form) = self.form else {
-            return Vec::new();
+            return;
         };
         let mask = self.instruction.destination.map_or(WriteMask::ALL, used);
-        let mut reads = Vec::new();
         if let (Some(shape), Some(looked_at)) = (form.destination, self.instruction.destination)
             && !shape.written
             // Without r# among its registers it looks at the coordinates that come in, not at a register.
@@ -225,7 +238,6 @@ impl Line<'_> {
                 });
             }
         }
-        reads
     }
 
     /// The components of its register that `texkill` and `texdepth` look at.

@@ -10,11 +10,26 @@ use crate::rules::model::Code;
 /// How many registers of a file both halves of a pair may read together (Direct3D 8.1: instruction pairing).
 const PORTS_OF_A_PAIR: usize = 3;
 
+/// How many registers of a file an instruction reads.
+struct Limit {
+    code: Code,
+    file: RegisterFile,
+    ports: usize,
+}
+
 pub(super) fn check(listing: &Listing, report: &mut Report) {
+    let limits = RegisterFile::all().filter_map(|file| {
+        Some(Limit {
+            code: code(file, listing.version)?,
+            file,
+            ports: file.read_ports(listing.version) as usize,
+        })
+    });
+    let limits: Vec<Limit> = limits.collect();
     for group in listing.groups() {
         let mut halves_fit = true;
         for line in group {
-            halves_fit &= instruction_fits(listing, line, report);
+            halves_fit &= instruction_fits(listing, line, &limits, report);
         }
         if let ([first, second], true) = (group, halves_fit) {
             pair_fits(listing, first, second, report);
@@ -36,21 +51,30 @@ fn distinct<'a>(
     found
 }
 
+/// Whether a file is read more than `ports` times at all.
+fn may_exceed<'a>(
+    reads: impl IntoIterator<Item = &'a Read>,
+    file: RegisterFile,
+    ports: usize,
+) -> bool {
+    let mut of_file = reads.into_iter().filter(|r| r.register.file == file);
+    of_file.nth(ports).is_some()
+}
+
 fn names(registers: &[(Register, Span)]) -> String {
     let names: Vec<String> = registers.iter().map(|(r, _)| r.to_string()).collect();
     enumerate(&names, "and")
 }
 
 /// R1, R2, R4, R6, R7. Returns whether all files are within their ports.
-fn instruction_fits(listing: &Listing, line: &Line, report: &mut Report) -> bool {
-    let reads = line.reads();
+fn instruction_fits(listing: &Listing, line: &Line, limits: &[Limit], report: &mut Report) -> bool {
+    let reads = listing.reads(line);
     let rows = line.form.map_or(1, |form| form.rows.max(1));
     let mut fits = true;
-    for file in RegisterFile::all() {
-        let ports = file.read_ports(listing.version) as usize;
-        let Some(code) = code(file, listing.version) else {
+    for &Limit { code, file, ports } in limits {
+        if !may_exceed(reads, file, ports) {
             continue;
-        };
+        }
         // Each row of a matrix is an instruction of its own, which reads row 0 operands and its own matrix row.
         let over = (0..rows).find_map(|row| {
             let matrix_row = |r: &&Read| r.row == row || is_vector_of_matrix(line, r);
@@ -123,9 +147,12 @@ fn code(file: RegisterFile, version: Version) -> Option<Code> {
 
 /// R11.
 fn pair_fits(listing: &Listing, first: &Line, second: &Line, report: &mut Report) {
-    let (a, b) = (first.reads(), second.reads());
+    let reads = || listing.reads(first).iter().chain(listing.reads(second));
     for file in RegisterFile::all() {
-        let found = distinct(a.iter().chain(&b), file);
+        if !may_exceed(reads(), file, PORTS_OF_A_PAIR) {
+            continue;
+        }
+        let found = distinct(reads(), file);
         let Some((_, span)) = found.get(PORTS_OF_A_PAIR) else {
             continue;
         };

@@ -285,7 +285,7 @@ fn contents_are_readable(listing: &Listing, report: &mut Report) {
         for line in group {
             let is_register =
                 |r: &&Read| r.register.file == RegisterFile::Texture && listing.exists(r.register);
-            for read in line.reads().iter().filter(is_register) {
+            for read in listing.reads(line).iter().filter(is_register) {
                 if listing.hides_write(read.register, read.span) {
                     continue;
                 }

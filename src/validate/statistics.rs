@@ -111,7 +111,7 @@ fn named_registers(listing: &Listing) -> BTreeSet<(RegisterFile, u32)> {
         .lines
         .iter()
         .filter_map(|l| l.instruction.destination);
-    let reads = listing.lines.iter().flat_map(Line::reads);
+    let reads = listing.lines.iter().flat_map(|line| listing.reads(line));
     let registers = definitions
         .chain(destinations.map(|d| d.register))
         .chain(reads.map(|r| r.register));
