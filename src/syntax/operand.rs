@@ -83,18 +83,32 @@ impl<'a> Parser<'a> {
         if let Some((suffix, at)) = suffix {
             self.suffix(&mut operand, suffix, at);
         }
-        self.index(&mut operand);
+        let next = self.peek();
+        // Most operands end here.
+        let ends = next.kind == Kind::Comma || next.kind == Kind::Word && next.first;
+        let comma_read = !ends && self.behind_register(&mut operand);
+        operand.span = match comma_read {
+            true => self.span_of(first, self.token(self.at.saturating_sub(2))),
+            false => self.span_from(first),
+        };
+        (Written::Register(operand), comma_read)
+    }
+
+    /// What follows the word of a register: index, suffix, components. True if a comma behind them was read that is
+    /// written otherwise.
+    fn behind_register(&mut self, operand: &mut WrittenRegister) -> bool {
+        self.index(operand);
         let next = self.peek();
         if next.kind == Kind::Word
             && self.glued(self.previous(), next)
             && self.word(next).starts_with('_')
         {
             self.bump();
-            self.suffix(&mut operand, self.word(next), self.span(next));
+            self.suffix(operand, self.word(next), self.span(next));
         }
-        self.lost_underscore(&mut operand);
-        let mut comma_read = self.selector(&mut operand);
-        self.lost_underscore(&mut operand);
+        self.lost_underscore(operand);
+        let mut comma_read = self.selector(operand);
+        self.lost_underscore(operand);
         let (dot, next) = (self.peek(), self.token(self.at + 1));
         let stands_for_comma = dot.kind == Kind::Dot && !dot.first && !next.first;
         if !comma_read && stands_for_comma && self.has_register(next) {
@@ -103,16 +117,15 @@ impl<'a> Parser<'a> {
             self.misread(&rules::SEPARATOR, self.span(dot), message, ",");
             comma_read = true;
         }
-        operand.span = match comma_read {
-            true => self.span_of(first, self.token(self.at.saturating_sub(2))),
-            false => self.span_from(first),
-        };
-        (Written::Register(operand), comma_read)
+        comma_read
     }
 
     /// `-` and `1-`, and whether something else was found and reported. `None` if no operand can follow.
     fn prefix(&mut self) -> Option<(&'static str, bool)> {
         let first = self.peek();
+        if first.kind == Kind::Word {
+            return Some(("", false));
+        }
         let mut minuses = 0;
         loop {
             let token = self.peek();
@@ -401,7 +414,8 @@ impl<'a> Parser<'a> {
         };
         let start = self.base + dot.start + 1;
         let start = start.max(self.base + token.start);
-        let (text, suffix) = text.split_at(text.find('_').unwrap_or(text.len()));
+        let underscore = text.bytes().position(|b| b == b'_');
+        let (text, suffix) = text.split_at(underscore.unwrap_or(text.len()));
         let end = start + text.len() as u32;
         let span = Span::new(start, end);
         operand.components_span = span;

@@ -116,6 +116,9 @@ fn component_read(listing: &Listing, read: &Read, temporary: &mut Temporary, rep
         .components
         .without(temporary.written)
         .without(temporary.told);
+    if missing.is_empty() {
+        return;
+    }
     temporary.told = temporary.told.or(missing);
     let losses = [
         (Code::I5, temporary.lost_to_depth),
