@@ -14,6 +14,7 @@ pub mod case;
 pub mod debug;
 pub mod diagnostic;
 pub mod exec;
+pub mod explain;
 pub mod extract;
 pub mod generate;
 #[cfg(feature = "gpu")]

@@ -14,6 +14,7 @@ mod debug;
 mod diagnostics;
 mod dis;
 mod eval;
+mod explain;
 mod files;
 mod filters;
 mod fmt;
@@ -62,6 +63,7 @@ enum Command {
     Debug(debug::Arguments),
     Dis(dis::Arguments),
     Eval(eval::Arguments),
+    Explain(explain::Arguments),
     Fmt(fmt::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
@@ -119,6 +121,7 @@ pub(crate) fn main() -> ExitCode {
         #[cfg(feature = "servers")]
         Command::Dap(arguments) => dap::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
         Command::Fmt(arguments) => fmt::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),

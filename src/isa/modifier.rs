@@ -49,38 +49,68 @@ pub struct SourceModifierRow {
     pub coordinates: VersionSet,
     /// The value as a formula in x.
     pub formula: &'static str,
+    /// What it is for, in sentences.
+    pub meaning: &'static str,
+    /// A listing in which it stands, without the version line, that the newest version that has it accepts without a word.
+    pub example: &'static str,
 }
 
+#[rustfmt::skip]
 static SOURCE_MODIFIERS: [SourceModifierRow; 11] = {
     use SourceModifier::*;
     const NO: VersionSet = VersionSet::NONE;
     const PS: VersionSet = VersionSet::PS;
     const PS14: VersionSet = VersionSet::PS_1_4;
     [
-        row(None, 0, "", "", "", VersionSet::ALL, NO, "x"),
-        row(Negate, 1, "-", "", "", VersionSet::ALL, NO, "-x"),
-        row(Bias, 2, "", "_bias", "", PS, NO, "x - 0.5"),
-        row(BiasNegate, 3, "-", "_bias", "", PS, NO, "-(x - 0.5)"),
-        row(Bx2, 4, "", "_bx2", "", PS, NO, "2 * (x - 0.5)"),
-        row(Bx2Negate, 5, "-", "_bx2", "", PS, NO, "-(2 * (x - 0.5))"),
-        row(Complement, 6, "1-", "", "", PS, NO, "1 - x"),
-        row(X2, 7, "", "_x2", "", PS14, NO, "2 * x"),
-        row(X2Negate, 8, "-", "_x2", "", PS14, NO, "-2 * x"),
-        row(Dz, 9, "", "_dz", "_db", NO, PS14, "x / z, y / z"),
-        row(Dw, 10, "", "_dw", "_da", NO, PS14, "x / w, y / w"),
+        row(None, 0, ("", "", ""), (VersionSet::ALL, NO), "x",
+            "The source as it is.",
+            "mov r0, v0"),
+        row(Negate, 1, ("-", "", ""), (VersionSet::ALL, NO), "-x",
+            "Turns the sign of a source. It goes together with _bias, _bx2 and _x2 and is applied after them. It is the only modifier \
+             of vertex shaders.",
+            "texld r0, t0\nadd r0.rgb, c0, -r0"),
+        row(Bias, 2, ("", "_bias", ""), (PS, NO), "x - 0.5",
+            "Moves 0 to 1 to -0.5 to 0.5.",
+            "texld r0, t0\nadd r0.rgb, r0_bias, c0"),
+        row(BiasNegate, 3, ("-", "_bias", ""), (PS, NO), "-(x - 0.5)",
+            "Moves 0 to 1 to -0.5 to 0.5 and turns the sign.",
+            "texld r0, t0\nadd r0.rgb, -r0_bias, c0"),
+        row(Bx2, 4, ("", "_bx2", ""), (PS, NO), "2 * (x - 0.5)",
+            "Spreads 0 to 1 to -1 to 1: what unpacks normals that are stored as colours. Texture instructions of ps.1.0 to ps.1.3 have \
+             it on the sources that say so.",
+            "texld r0, t0\ndp3_sat r0.rgb, r0_bx2, c0"),
+        row(Bx2Negate, 5, ("-", "_bx2", ""), (PS, NO), "-(2 * (x - 0.5))",
+            "Spreads 0 to 1 to -1 to 1 and turns the sign.",
+            "texld r0, t0\ndp3_sat r0.rgb, -r0_bx2, c0"),
+        row(Complement, 6, ("1-", "", ""), (PS, NO), "1 - x",
+            "Takes what is missing to 1: the negative of a colour, the other weight of a mixture. It goes together with no other \
+             modifier.",
+            "texld r0, t0\nmul r0.rgb, 1-r0, c0"),
+        row(X2, 7, ("", "_x2", ""), (PS14, NO), "2 * x",
+            "Doubles a source. Behind a mnemonic the same letters double the result.",
+            "texld r0, t0\nadd r0.rgb, r0_x2, c0"),
+        row(X2Negate, 8, ("-", "_x2", ""), (PS14, NO), "-2 * x",
+            "Doubles a source and turns the sign.",
+            "texld r0, t0\nadd r0.rgb, -r0_x2, c0"),
+        row(Dz, 9, ("", "_dz", "_db"), (NO, PS14), "(x / z, y / z)",
+            "Divides the first two components of r# by the third before texld samples there, at most twice in a shader. What is divided by \
+             0 becomes 1. It stands alone or with .xyz and goes together with no other modifier.",
+            "texcrd r1.rgb, t1\nphase\ntexld r0, r1_dz\nmov r0.a, c0.r"),
+        row(Dw, 10, ("", "_dw", "_da"), (NO, PS14), "(x / w, y / w)",
+            "Divides the first two components of t# by the fourth: projected textures. What is divided by 0 becomes 1. It stands with .xyw \
+             and goes together with no other modifier.",
+            "texld r0, t0_dw.xyw\nmov r0.a, c0.r"),
     ]
 };
 
-#[allow(clippy::too_many_arguments)]
 const fn row(
     modifier: SourceModifier,
     code: u8,
-    prefix: &'static str,
-    suffix: &'static str,
-    alias: &'static str,
-    arithmetic: VersionSet,
-    coordinates: VersionSet,
+    (prefix, suffix, alias): (&'static str, &'static str, &'static str),
+    (arithmetic, coordinates): (VersionSet, VersionSet),
     formula: &'static str,
+    meaning: &'static str,
+    example: &'static str,
 ) -> SourceModifierRow {
     SourceModifierRow {
         modifier,
@@ -91,6 +121,20 @@ const fn row(
         arithmetic,
         coordinates,
         formula,
+        meaning,
+        example,
+    }
+}
+
+impl SourceModifierRow {
+    /// The versions that have it in one place or the other.
+    pub const fn versions(&self) -> VersionSet {
+        self.arithmetic.and(self.coordinates)
+    }
+
+    /// How it is written around a register of this name: `-r0_bx2`.
+    pub fn around(&self, register: &str) -> String {
+        format!("{}{register}{}", self.prefix, self.suffix)
     }
 }
 
@@ -142,33 +186,70 @@ pub struct ResultModifier {
 
 /// One suffix of a mnemonic that modifies the result.
 #[derive(Debug)]
-pub struct ShiftRow {
-    /// The power of two.
+pub struct ResultSuffix {
+    /// The power of two; 0 for the saturation.
     pub shift: i8,
     /// The suffix of the mnemonic.
     pub suffix: &'static str,
     /// Versions that have it.
     pub versions: VersionSet,
+    /// The result as a formula in x.
+    pub formula: &'static str,
+    /// What it is for, in sentences.
+    pub meaning: &'static str,
+    /// A listing in which it stands, without the version line, that the newest version that has it accepts without a word.
+    pub example: &'static str,
 }
 
-/// The suffix that saturates; every pixel shader version has it.
-pub const SATURATE_SUFFIX: &str = "_sat";
-
 /// The shifts, one row each.
-pub static SHIFTS: [ShiftRow; 6] = [
-    shift(1, "_x2", VersionSet::PS),
-    shift(2, "_x4", VersionSet::PS),
-    shift(3, "_x8", VersionSet::PS_1_4),
-    shift(-1, "_d2", VersionSet::PS),
-    shift(-2, "_d4", VersionSet::PS_1_4),
-    shift(-3, "_d8", VersionSet::PS_1_4),
+#[rustfmt::skip]
+pub static SHIFTS: [ResultSuffix; 6] = [
+    shift(1, "_x2", VersionSet::PS, "2 * x", "Doubles the result.",
+        "texld r0, t0\nmul_x2 r0.rgb, r0, v0"),
+    shift(2, "_x4", VersionSet::PS, "4 * x", "Multiplies the result by 4.",
+        "texld r0, t0\nmul_x4 r0.rgb, r0, v0"),
+    shift(3, "_x8", VersionSet::PS_1_4, "8 * x", "Multiplies the result by 8.",
+        "texld r0, t0\nmul_x8 r0.rgb, r0, v0"),
+    shift(-1, "_d2", VersionSet::PS, "x / 2", "Halves the result.",
+        "texld r0, t0\nadd_d2 r0.rgb, r0, v0"),
+    shift(-2, "_d4", VersionSet::PS_1_4, "x / 4", "Divides the result by 4.",
+        "texld r0, t0\nadd_d4 r0.rgb, r0, v0"),
+    shift(-3, "_d8", VersionSet::PS_1_4, "x / 8", "Divides the result by 8.",
+        "texld r0, t0\nadd_d8 r0.rgb, r0, v0"),
 ];
 
-const fn shift(shift: i8, suffix: &'static str, versions: VersionSet) -> ShiftRow {
-    ShiftRow {
+/// The suffix that saturates.
+pub static SATURATION: ResultSuffix = ResultSuffix {
+    shift: 0,
+    suffix: "_sat",
+    versions: VersionSet::PS,
+    formula: "clamp(x, 0, 1)",
+    meaning: "Clamps the result to 0 to 1; NaN becomes 0. With a shift it is applied after it, whichever stands first.",
+    example: "texld r0, t0\ndp3_sat r0.rgb, r0_bx2, c0",
+};
+
+const fn shift(
+    shift: i8,
+    suffix: &'static str,
+    versions: VersionSet,
+    formula: &'static str,
+    meaning: &'static str,
+    example: &'static str,
+) -> ResultSuffix {
+    ResultSuffix {
         shift,
         suffix,
         versions,
+        formula,
+        meaning,
+        example,
+    }
+}
+
+impl ResultSuffix {
+    /// Every suffix.
+    pub fn all() -> impl Iterator<Item = &'static ResultSuffix> {
+        SHIFTS.iter().chain([&SATURATION])
     }
 }
 
@@ -180,23 +261,24 @@ impl ResultModifier {
     };
 
     /// The row of this shift; `None` for no shift and for shifts that no version has.
-    pub fn shift_row(self) -> Option<&'static ShiftRow> {
+    pub fn shift_row(self) -> Option<&'static ResultSuffix> {
         SHIFTS.iter().find(|row| row.shift == self.shift)
+    }
+
+    /// The rows of its suffixes, in the order in which they are written: the shift first.
+    pub fn rows(self) -> impl Iterator<Item = &'static ResultSuffix> {
+        let saturation = self.saturate.then_some(&SATURATION);
+        self.shift_row().into_iter().chain(saturation)
     }
 
     /// Whether the version has this modifier on arithmetic instructions.
     pub fn exists_in(self, version: Version) -> bool {
-        let shift = self.shift == 0
-            || self
-                .shift_row()
-                .is_some_and(|row| row.versions.contains(version));
-        shift && (!self.saturate || VersionSet::PS.contains(version))
+        let known = self.shift == 0 || self.shift_row().is_some();
+        known && self.rows().all(|row| row.versions.contains(version))
     }
 
     /// The suffixes of the mnemonic, shift first.
     pub fn text(self) -> String {
-        let shift = self.shift_row().map_or("", |row| row.suffix);
-        let saturate = if self.saturate { SATURATE_SUFFIX } else { "" };
-        format!("{shift}{saturate}")
+        self.rows().map(|row| row.suffix).collect()
     }
 }

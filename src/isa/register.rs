@@ -54,10 +54,61 @@ pub struct FileRow {
     pub read_ports: PerVersion,
     /// What a shader may do with it.
     pub access: Access,
+    /// What it is in groups of versions; every version that has the file is in one of them.
+    pub forms: &'static [FileForm],
+}
+
+/// A register file as one group of versions has it.
+#[derive(Debug)]
+pub struct FileForm {
+    /// The versions.
+    pub versions: VersionSet,
+    /// What it holds, who fills it and who reads it, in sentences.
+    pub meaning: &'static str,
+    /// What it holds before the shader writes it; of an output, what is taken if the shader never does.
+    pub before: &'static str,
+    /// Which numbers it holds.
+    pub range: &'static str,
+    /// A listing in which it stands, without the version line; every one of the versions accepts it without a word.
+    pub example: &'static str,
+}
+
+/// One register of [`RegisterFile::RastOut`].
+#[derive(Debug)]
+pub struct RastOutRow {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is; the versions are those of the file.
+    pub form: FileForm,
 }
 
 /// The registers of [`RegisterFile::RastOut`] by number.
-pub const RAST_OUT: [&str; 3] = ["oPos", "oFog", "oPts"];
+#[rustfmt::skip]
+pub static RAST_OUT: [RastOutRow; 3] = [
+    RastOutRow { name: "oPos", form: FileForm {
+        versions: VersionSet::VS,
+        meaning: "The position of the vertex in clip space, all four components: it is clipped and divided by w. Every vertex shader \
+                  writes it.",
+        before: "it must be written",
+        range: "32-bit floats",
+        example: "m4x4 oPos, v0, c0",
+    } },
+    RastOutRow { name: "oFog", form: FileForm {
+        versions: VersionSet::VS,
+        meaning: "How much of the fog leaves the pixel free: 1 is no fog, 0 nothing but fog. It is one number, the x of what is written, \
+                  with the mask .x or none, and it is interpolated.",
+        before: "0, nothing but fog, where fog is enabled and no fog table computes it",
+        range: "clamped to 0 to 1",
+        example: "m4x4 r0, v0, c0\nmov oPos, r0\nmad oFog.x, r0.w, c4.x, c4.y",
+    } },
+    RastOutRow { name: "oPts", form: FileForm {
+        versions: VersionSet::VS,
+        meaning: "The size of a point in pixels. It is one number, the x of what is written, with the mask .x or none.",
+        before: "D3DRS_POINTSIZE",
+        range: "clamped to D3DRS_POINTSIZE_MIN to D3DRS_POINTSIZE_MAX",
+        example: "m4x4 oPos, v0, c0\nmov oPts.x, c4.x",
+    } },
+];
 /// Number of `oPos` in [`RegisterFile::RastOut`].
 pub const OPOS: u32 = 0;
 /// Number of `oFog` in [`RegisterFile::RastOut`].
@@ -74,26 +125,105 @@ use Access::{Read, ReadWrite, Write};
 #[rustfmt::skip]
 static FILES: [FileRow; 8] = {
     use RegisterFile::*;
+    const VS: VersionSet = VersionSet::VS;
+    const PS: VersionSet = VersionSet::PS;
+    const PS13: VersionSet = VersionSet::PS_1_0_TO_1_3;
+    const PS14: VersionSet = VersionSet::PS_1_4;
+    const UNDEFINED: &str = "undefined; a component is written before it is read";
+    const WORKING: &str = "32-bit floats; devices promised -1 to 1 at least (D3DCAPS8.MaxPixelShaderValue)";
     [
-        row(Temp, "temporary", "r", 0, [12, 12, 2, 2, 2, 2, 6], [3, 3, 2, 2, 2, 2, 3], ReadWrite),
-        row(Input, "input", "v", 1, [16, 16, 2, 2, 2, 2, 2], [1, 1, 1, 2, 2, 2, 2], Read),
-        row(Const, "constant", "c", 2, [96, 96, 8, 8, 8, 8, 8], [1, 1, 2, 2, 2, 2, 2], Read),
-        row(Addr, "address", "a", 3, [0, 1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0, 0], Write),
-        row(Texture, "texture", "t", 3, [0, 0, 4, 4, 4, 4, 6], [0, 0, 1, 2, 3, 3, 1], ReadWrite),
-        row(RastOut, "rasterizer output", "o", 4, [3, 3, 0, 0, 0, 0, 0], [0; 7], Write),
-        row(AttrOut, "colour output", "oD", 5, [2, 2, 0, 0, 0, 0, 0], [0; 7], Write),
-        row(TexCrdOut, "texture coordinate output", "oT", 6, [8, 8, 0, 0, 0, 0, 0], [0; 7], Write),
+        row(Temp, ("temporary", "r", 0), [12, 12, 2, 2, 2, 2, 6], [3, 3, 2, 2, 2, 2, 3], ReadWrite, &[
+            file(VS, "Working registers.", UNDEFINED, "32-bit floats",
+                "m4x4 r0, v0, c0\nadd oPos, r0, c4"),
+            file(PS13, "Working registers. What r0 holds at the end is the result: the colour of the pixel and its alpha.", UNDEFINED, WORKING,
+                "tex t0\nmul r1, t0, v0\nadd r0, r1, c0"),
+            file(PS14, "Working registers. A texld into r# samples the stage of its number, and behind phase it samples at the coordinates that \
+                        the first phase left in an r#. What r0 holds at the end is the result: the colour of the pixel and its alpha. phase \
+                        loses the alpha of all of them.",
+                UNDEFINED, "32-bit floats; devices promised -8 to 8 at least (D3DCAPS8.MaxPixelShaderValue)",
+                "texld r0, t0\ntexld r1, t1\nmul r0.rgb, r0, r1"),
+        ]),
+        row(Input, ("input", "v", 1), [16, 16, 2, 2, 2, 2, 2], [1, 1, 1, 2, 2, 2, 2], Read, &[
+            file(VS, "The elements of a vertex. The vertex declaration says which element feeds which register; what it does not say is as \
+                      D3DVSDE_POSITION and its kin number them. Components that an element does not have are 0, w is 1.",
+                "(0, 0, 0, 1) where no element feeds it", "32-bit floats",
+                "m4x4 oPos, v0, c0\nmov oD0, v5"),
+            file(PS13, "v0 is the diffuse, v1 the specular colour: oD0 and oD1 of the vertex shader, interpolated.",
+                "filled for every pixel", "0 to 1, in 8 bits at least",
+                "tex t0\nmul r0, t0, v0"),
+            file(PS14, "v0 is the diffuse, v1 the specular colour: oD0 and oD1 of the vertex shader, interpolated. They can be read behind phase; \
+                        a shader without phase is all behind it.",
+                "filled for every pixel", "0 to 1, in 8 bits at least",
+                "texld r0, t0\nmul r0, r0, v0"),
+        ]),
+        row(Const, ("constant", "c", 2), [96, 96, 8, 8, 8, 8, 8], [1, 1, 2, 2, 2, 2, 2], Read, &[
+            file(VS, "Numbers that are the same for all vertices, set by the program (SetVertexShaderConstant), by def or by D3DVSD_CONST of the \
+                      vertex declaration. It is the only file that is addressed relative to a0.x; beyond its end it reads (0, 0, 0, 0). \
+                      Every device has this many (D3DCAPS8.MaxVertexShaderConst), the largest 256.",
+                "(0, 0, 0, 0)", "32-bit floats",
+                "def c4, 0.5, 0.5, 0.5, 1\nm4x4 oPos, v0, c0\nmul oD0, v5, c4"),
+            file(PS, "Numbers that are the same for all pixels, set by the program (SetPixelShaderConstant) or by def.",
+                "(0, 0, 0, 0)", "clamped to -1 to 1 when they are read",
+                "def c0, 1, 0.5, 0, 1\nmul r0, v0, c0"),
+        ]),
+        row(Addr, ("address", "a", 3), [0, 1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0, 0], Write, &[
+            file(VersionSet::VS_1_1, "A whole number that c[a0.x + n] adds to the number of a constant. It has the component x alone, and mov alone \
+                                      writes it, rounding down.",
+                "undefined; it is written before it is used", "whole numbers of 32 bits; NaN becomes 0",
+                "mov a0.x, v1.x\nm4x4 oPos, v0, c[a0.x]"),
+        ]),
+        row(Texture, ("texture", "t", 3), [0, 0, 4, 4, 4, 4, 6], [0, 0, 1, 2, 3, 3, 1], ReadWrite, &[
+            file(PS13, "Two things under one name. As the destination of a texture instruction the number names the texture coordinates and the \
+                        stage; behind it t# holds what was sampled or computed there, four numbers that arithmetic and later texture \
+                        instructions read and arithmetic may overwrite.",
+                "undefined; a texture instruction fills it", WORKING,
+                "tex t0\nmul t0, t0, v0\nmov r0, t0"),
+            file(PS14, "Texture coordinates: oT# of the vertex shader, interpolated. Only texld, texcrd and texkill read them.",
+                "filled for every pixel; a component that the vertex does not have is 0, the fourth 1",
+                "32-bit floats; devices promised -8 to 8 at least (D3DCAPS8.MaxTextureRepeat)",
+                "texld r0, t1\nmul r0, r0, v0"),
+        ]),
+        row(RastOut, ("rasterizer output", "o", 4), [3, 3, 0, 0, 0, 0, 0], [0; 7], Write, &[
+            file(VS, "What the rasterizer takes of a vertex beside colours and coordinates.",
+                "each has a value of its own", "each has a range of its own",
+                "m4x4 r0, v0, c0\nmov oPos, r0\nmov oFog.x, r0.z\nmov oPts.x, c4.x"),
+        ]),
+        row(AttrOut, ("colour output", "oD", 5), [2, 2, 0, 0, 0, 0, 0], [0; 7], Write, &[
+            file(VS, "The colours of a vertex: oD0 is the diffuse, oD1 the specular one. Interpolated they are v0 and v1 of the pixel shader.",
+                "oD0 (1, 1, 1, 1), oD1 (0, 0, 0, 0), component by component", "clamped to 0 to 1 before they are interpolated",
+                "m4x4 oPos, v0, c0\nmov oD0, v5\nmov oD1, v6"),
+        ]),
+        row(TexCrdOut, ("texture coordinate output", "oT", 6), [8, 8, 0, 0, 0, 0, 0], [0; 7], Write, &[
+            file(VS, "Texture coordinates of a vertex. Interpolated they are those of the pixel shader with the same number.",
+                "(0, 0, 0, 0), component by component", "32-bit floats",
+                "m4x4 oPos, v0, c0\nmov oT0, v7"),
+        ]),
     ]
 };
 
+const fn file(
+    versions: VersionSet,
+    meaning: &'static str,
+    before: &'static str,
+    range: &'static str,
+    example: &'static str,
+) -> FileForm {
+    FileForm {
+        versions,
+        meaning,
+        before,
+        range,
+        example,
+    }
+}
+
 const fn row(
     file: RegisterFile,
-    name: &'static str,
-    prefix: &'static str,
-    code: u8,
+    (name, prefix, code): (&'static str, &'static str, u8),
     count: PerVersion,
     read_ports: PerVersion,
     access: Access,
+    forms: &'static [FileForm],
 ) -> FileRow {
     FileRow {
         file,
@@ -103,6 +233,7 @@ const fn row(
         count,
         read_ports,
         access,
+        forms,
     }
 }
 
@@ -165,9 +296,9 @@ impl RegisterFile {
     /// The name of register `index` of this file as listings write it: `r3`, `a0`, `oPos`, `oT2`.
     pub fn register_name(self, index: u32) -> String {
         if self == RegisterFile::RastOut
-            && let Some(name) = RAST_OUT.get(index as usize)
+            && let Some(row) = RAST_OUT.get(index as usize)
         {
-            return (*name).to_string();
+            return row.name.to_string();
         }
         // With room for the letters that mostly follow.
         let mut name = String::with_capacity(16);
@@ -177,6 +308,33 @@ impl RegisterFile {
             None => name.push_str(&index.to_string()),
         }
         name
+    }
+
+    /// What its registers are called when any of them is meant: `r#`, `oPos, oFog, oPts`.
+    pub fn any_name(self) -> String {
+        match self {
+            RegisterFile::RastOut => RAST_OUT.each_ref().map(|row| row.name).join(", "),
+            RegisterFile::Addr => self.register_name(0),
+            _ => format!("{}#", self.row().prefix),
+        }
+    }
+
+    /// What this version says of a register of the file, where its registers differ of that one; `None` if the version does not
+    /// have the file.
+    pub fn form(self, index: Option<u32>, version: Version) -> Option<&'static FileForm> {
+        let mut own = self.forms(index);
+        own.find(|form| form.versions.contains(version))
+    }
+
+    /// What all groups of versions say of a register of the file, where its registers differ of that one.
+    pub fn forms(self, index: Option<u32>) -> impl Iterator<Item = &'static FileForm> {
+        let own = match (self, index) {
+            (RegisterFile::RastOut, Some(index)) => RAST_OUT.get(index as usize),
+            _ => None,
+        };
+        let own = own.map(|row| &row.form);
+        let all = self.row().forms.iter().filter(move |_| own.is_none());
+        own.into_iter().chain(all)
     }
 
     /// The register that listings write like this, in letters of either case, whether a version has it or not: the other way from
@@ -236,8 +394,8 @@ static PREFIX_KEYS: [u16; FILES.len()] = {
 
 /// The register of [`RegisterFile::RastOut`] with this name, in letters of either case.
 pub(crate) fn rast_out(name: &[u8]) -> Option<u32> {
-    let same = |other: &&str| other.as_bytes().eq_ignore_ascii_case(name);
-    let number = RAST_OUT.iter().position(|other| same(&other))?;
+    let same = |row: &RastOutRow| row.name.as_bytes().eq_ignore_ascii_case(name);
+    let number = RAST_OUT.iter().position(same)?;
     Some(number as u32)
 }
 

@@ -32,6 +32,7 @@ pub(crate) use confuse::distance;
 pub use fix::apply_fixes;
 pub use format::format;
 pub(crate) use format::format_block;
+pub(crate) use names::foreign_mnemonic;
 pub use printer::{print, print_instruction};
 pub(crate) use prologue::{begins_with_version, not_text};
 pub use unread::unread;

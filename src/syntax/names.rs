@@ -1,7 +1,7 @@
 //! What words mean: versions, mnemonics with their suffixes, registers, component letters.
 
 use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
-use crate::isa::modifier::{SATURATE_SUFFIX, SHIFTS};
+use crate::isa::modifier::{SATURATION, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::register::{number, rast_out};
 use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
@@ -123,7 +123,7 @@ pub(super) fn result_suffixes() -> impl Iterator<Item = (ResultSuffix, &'static 
     let shifts = SHIFTS
         .iter()
         .map(|row| (ResultSuffix::Shift(row.shift), row.suffix));
-    shifts.chain([(ResultSuffix::Saturate, SATURATE_SUFFIX)])
+    shifts.chain([(ResultSuffix::Saturate, SATURATION.suffix)])
 }
 
 /// The result suffix of this text, underscore included.
@@ -188,7 +188,7 @@ const FOREIGN_MNEMONICS: [(&str, &[&str]); 2] = [
 ];
 
 /// Where an instruction belongs that Direct3D 8 does not have.
-pub(super) fn foreign_mnemonic(stem: &str) -> Option<&'static str> {
+pub(crate) fn foreign_mnemonic(stem: &str) -> Option<&'static str> {
     let has = |names: &[&str]| names.iter().any(|n| n.eq_ignore_ascii_case(stem));
     FOREIGN_MNEMONICS
         .iter()

@@ -309,39 +309,16 @@ pub(super) fn ordinal(n: u32) -> String {
     format!("{n}{ending}")
 }
 
-/// Words as a list for people: `a`, `a and b`, `a, b and c`.
-pub(super) fn enumerate<S: AsRef<str>>(words: &[S], last: &str) -> String {
-    match words {
-        [] => String::new(),
-        [one] => one.as_ref().to_string(),
-        [most @ .., end] => {
-            let most: Vec<&str> = most.iter().map(AsRef::as_ref).collect();
-            format!("{} {last} {}", most.join(", "), end.as_ref())
-        }
-    }
-}
-
-/// The versions of a set as a list for people.
-pub(super) fn version_names(versions: VersionSet) -> String {
-    let names: Vec<&str> = versions.iter().map(Version::name).collect();
-    enumerate(&names, "and")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_lists_are_written_as_people_do() {
+    fn numbers_are_written_as_people_do() {
         let ordinals = [1, 2, 3, 4, 11, 12, 13, 21, 101, 111, 122].map(ordinal);
         assert_eq!(
             ordinals.join(" "),
             "1st 2nd 3rd 4th 11th 12th 13th 21st 101st 111th 122nd"
-        );
-        assert_eq!(enumerate(&["a", "b", "c"], "or"), "a, b or c");
-        assert_eq!(
-            version_names(VersionSet::PS_1_2_TO_1_3),
-            "ps.1.2 and ps.1.3"
         );
     }
 }

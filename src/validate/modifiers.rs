@@ -1,8 +1,9 @@
 //! M1 to M13: modifiers, selectors and write masks of pixel shaders; O23, their absence from vertex shaders.
 
-use super::listing::{Line, Listing, Phase, enumerate, version_names};
+use super::listing::{Line, Listing, Phase};
 use super::operands::is_condition_of_cnd;
 use super::report::Report;
+use crate::isa::enumerate;
 use crate::isa::opcode::{DestinationShape, ModifierRule};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, ResultModifier, SourceModifier, Swizzle, Version, WriteMask,
@@ -86,8 +87,7 @@ fn result_modifier(listing: &Listing, line: &Line, form: &Form, report: &mut Rep
         let help = match result.shift_row() {
             Some(row) => format!(
                 "{} is for {}; _x2, _x4 and _d2 are for all pixel shaders",
-                row.suffix,
-                version_names(row.versions)
+                row.suffix, row.versions
             ),
             None => "a result is scaled by 8, 4, 2, 1/2, 1/4 or 1/8".to_string(),
         };
@@ -191,7 +191,7 @@ fn source_modifier(
                 // The minus sign is not what is missing.
                 suffix => format!("{version} has no `{suffix}` on a source"),
             },
-            format!("only {} has it", version_names(row.arithmetic)),
+            format!("only {} has it", row.arithmetic),
         );
     } else if source.register.file == RegisterFile::Const {
         on_a_constant(listing, source, report);
@@ -206,7 +206,7 @@ fn divides(modifier: SourceModifier) -> bool {
 fn texture_modifiers(rule: ModifierRule) -> String {
     match rule {
         ModifierRule::Bx2(versions) if versions.iter().count() > 0 => {
-            format!("only _bx2, in {}", version_names(versions))
+            format!("only _bx2, in {}", versions)
         }
         ModifierRule::Bx2(_) => "its source is read as it is, signed formats as signed".to_string(),
         ModifierRule::Coordinates => "only r#_dz, or t#_dw with .xyw".to_string(),
@@ -223,7 +223,7 @@ fn division(version: Version, line: &Line, source: &Source, report: &mut Report)
             Code::M1Divide,
             source.span,
             format!("{version} has no `{}` on a source", row.suffix),
-            format!("only {} has it", version_names(row.coordinates)),
+            format!("only {} has it", row.coordinates),
         );
         return;
     }

@@ -1,11 +1,12 @@
 //! O1 to O26: which registers an operand may name.
 
-use super::listing::{Line, Listing, Phase, enumerate};
+use super::listing::{Line, Listing, Phase};
 use super::modifiers::allowed_masks;
 use super::report::Report;
 use crate::diagnostic::Span;
+use crate::isa::enumerate;
 use crate::isa::opcode::{ModifierRule, Slots};
-use crate::isa::register::{Access, RAST_OUT, VERTEX_CONSTANTS};
+use crate::isa::register::{Access, VERTEX_CONSTANTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
@@ -97,18 +98,9 @@ fn register_exists(
 fn files_of(version: Version) -> String {
     let names: Vec<String> = RegisterFile::all()
         .filter(|f| f.count(version) > 0)
-        .map(any_of)
+        .map(RegisterFile::any_name)
         .collect();
     enumerate(&names, "and")
-}
-
-/// What the registers of a file are called when any of them is meant.
-fn any_of(file: RegisterFile) -> String {
-    match file {
-        RegisterFile::RastOut => RAST_OUT.join(", "),
-        RegisterFile::Addr => file.register_name(0),
-        _ => format!("{}#", file.row().prefix),
-    }
 }
 
 fn check_destination(
@@ -150,7 +142,7 @@ fn check_destination(
         .files
         .iter()
         .filter(|f| f.count(listing.version) > 0)
-        .map(any_of)
+        .map(RegisterFile::any_name)
         .collect();
     let files = enumerate(&files, "or");
     let (message, help) = match code {

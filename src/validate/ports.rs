@@ -1,8 +1,9 @@
 //! R1 to R11: how many registers of a file an instruction may read.
 
-use super::listing::{Line, Listing, Read, enumerate};
+use super::listing::{Line, Listing, Read};
 use super::report::Report;
 use crate::diagnostic::Span;
+use crate::isa::enumerate;
 use crate::isa::{RegisterFile, Version};
 use crate::program::Register;
 use crate::rules::model::Code;

@@ -1,6 +1,6 @@
 //! S2 to S14: which instructions stand where, and what a shader has to write.
 
-use super::listing::{Listing, Phase, version_names};
+use super::listing::{Listing, Phase};
 use super::report::Report;
 use crate::isa::register::OPOS;
 use crate::isa::{Opcode, RegisterFile, Version, WriteMask};
@@ -28,7 +28,7 @@ fn instructions_exist(listing: &Listing, report: &mut Report) {
         } else {
             Code::S14
         };
-        let known = version_names(opcode.versions());
+        let known = opcode.versions();
         let help = match instead_of(opcode, listing.version) {
             Some(instead) => format!("{known} have it; {} has {instead}", listing.version),
             None if opcode.versions().iter().count() == 1 => format!("only {known} has it"),
