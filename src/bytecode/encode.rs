@@ -12,6 +12,9 @@ use crate::program::{
 /// Bit 30 of an instruction token: it runs together with the instruction before it.
 pub(super) const CO_ISSUE: u32 = 1 << 30;
 
+/// An opcode with a destination and two sources: what most statements are.
+const WORDS_A_STATEMENT: usize = 4;
+
 /// The tokens of a shader, from its version to its end.
 ///
 /// What is allowed is not asked; a shader is refused only for what has no token. `sub` of a vertex shader becomes an `add`
@@ -23,9 +26,10 @@ pub(super) const CO_ISSUE: u32 = 1 << 30;
 pub fn encode(program: &Program) -> Result<Vec<u32>, Vec<Diagnostic>> {
     let mut encoder = Encoder {
         version: program.version,
-        words: vec![program.version.token()],
+        words: Vec::with_capacity(2 + WORDS_A_STATEMENT * program.statements.len()),
         faults: Vec::new(),
     };
+    encoder.words.push(program.version.token());
     for item in program.items() {
         match item {
             Item::Statement(Statement::Instruction(i)) => encoder.instruction(i),
@@ -80,7 +84,12 @@ impl Encoder {
     /// The token of an opcode.
     fn opcode(&mut self, opcode: Opcode, co_issue: bool, span: Span) {
         let token = opcode.row().token;
-        let meant = Opcode::meant_by(token, self.version);
+        // An opcode of the version has its number to itself.
+        let own = opcode.form(self.version).is_some();
+        let meant = match own {
+            true => Some(opcode),
+            false => Opcode::meant_by(token, self.version),
+        };
         if meant != Some(opcode) {
             let message = format!("`{}` has no token in {}", opcode.mnemonic(), self.version);
             let help = meant.map(|other| {

@@ -79,7 +79,7 @@ fn register_bits(register: Register, kind: ShaderKind) -> Result<u32, Fault> {
             "",
         )
     };
-    if RegisterFile::from_code(code, kind) != Some(file) {
+    if !file.exists_in(kind) {
         return Err(none(&format!("a {} has no such register", kind_name(kind))));
     }
     if index > NUMBER || file == RegisterFile::RastOut && index > 2 {

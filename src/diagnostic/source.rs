@@ -3,7 +3,7 @@
 use super::origin::{Derivation, Origin};
 use std::borrow::Cow;
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A half-open range of bytes in the common address space of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -62,7 +62,7 @@ impl fmt::Display for TooLarge {
 
 impl std::error::Error for TooLarge {}
 
-/// One text and where its lines begin.
+/// One text.
 ///
 /// Texts are bytes: listings of the time hold comments in legacy code pages.
 #[derive(Clone, Debug)]
@@ -70,7 +70,8 @@ pub struct SourceFile {
     name: String,
     pub(super) bytes: Arc<[u8]>,
     pub(super) base: u32,
-    line_starts: Vec<u32>,
+    /// Where its lines begin: looked for when somebody asks, which of most texts nobody does.
+    line_starts: OnceLock<Vec<u32>>,
     pub(super) origin: Origin,
 }
 
@@ -95,13 +96,22 @@ impl SourceFile {
         Span::new(self.base, self.base + self.bytes.len() as u32)
     }
 
+    fn line_starts(&self) -> &[u32] {
+        self.line_starts.get_or_init(|| {
+            let newlines = self.bytes.iter().enumerate().filter(|(_, b)| **b == b'\n');
+            std::iter::once(0)
+                .chain(newlines.map(|(i, _)| i as u32 + 1))
+                .collect()
+        })
+    }
+
     /// The bytes of line `line` (from 1), without its line end; empty if there is no such line.
     pub fn line(&self, line: usize) -> &[u8] {
-        let Some(&start) = line.checked_sub(1).and_then(|i| self.line_starts.get(i)) else {
+        let starts = self.line_starts();
+        let Some(&start) = line.checked_sub(1).and_then(|i| starts.get(i)) else {
             return &[];
         };
-        let end = self
-            .line_starts
+        let end = starts
             .get(line)
             .map_or(self.bytes.len(), |&next| next as usize);
         let text = self.bytes.get(start as usize..end).unwrap_or(&[]);
@@ -112,7 +122,7 @@ impl SourceFile {
     /// Offset of the first byte of line `line` (from 1) within this text.
     pub fn line_start(&self, line: usize) -> u32 {
         line.checked_sub(1)
-            .and_then(|i| self.line_starts.get(i))
+            .and_then(|i| self.line_starts().get(i))
             .copied()
             .unwrap_or(self.bytes.len() as u32)
     }
@@ -120,7 +130,7 @@ impl SourceFile {
     /// The line (from 1) that holds the byte at this offset within the text; the last one behind the end.
     pub fn line_at(&self, offset: u32) -> usize {
         let offset = offset.min(self.bytes.len() as u32);
-        self.line_starts.partition_point(|&start| start <= offset)
+        self.line_starts().partition_point(|&start| start <= offset)
     }
 
     fn location(&self, offset: u32) -> (usize, usize) {
@@ -216,16 +226,12 @@ impl SourceMap {
             let length = bytes.len() as u64;
             return Err(TooLarge { name, length });
         }
-        let newlines = bytes.iter().enumerate().filter(|(_, b)| **b == b'\n');
-        let line_starts = std::iter::once(0)
-            .chain(newlines.map(|(i, _)| i as u32 + 1))
-            .collect();
         let at = self.files.len();
         self.files.push(SourceFile {
             name,
             bytes: bytes.into(),
             base,
-            line_starts,
+            line_starts: OnceLock::new(),
             origin,
         });
         Ok(&self.files[at])

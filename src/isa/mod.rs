@@ -10,6 +10,7 @@
 //! Adding an instruction is one row in [`opcode`], one meaning, one WGSL form and one test case.
 
 mod list;
+mod mnemonic;
 pub mod modifier;
 pub mod notation;
 pub mod opcode;

@@ -275,9 +275,23 @@ impl RegisterFile {
 
     /// The file of a token's register type in a shader of this kind.
     pub fn from_code(code: u8, kind: ShaderKind) -> Option<Self> {
-        let of_kind = |file: &RegisterFile| file.versions().iter().any(|v| v.kind() == kind);
-        Self::all().filter(of_kind).find(|f| f.row().code == code)
+        let of_code = |file: &RegisterFile| file.row().code == code;
+        Self::all()
+            .filter(of_code)
+            .find(|file| file.exists_in(kind))
     }
+
+    /// Whether a version of this kind has the file.
+    pub const fn exists_in(self, kind: ShaderKind) -> bool {
+        let set = match kind {
+            ShaderKind::Vertex => Self::OF_VERTEX_SHADERS,
+            ShaderKind::Pixel => Self::OF_PIXEL_SHADERS,
+        };
+        set.contains(self)
+    }
+
+    const OF_VERTEX_SHADERS: FileSet = of_versions(VersionSet::VS);
+    const OF_PIXEL_SHADERS: FileSet = of_versions(VersionSet::PS);
 
     /// The name of register `index` of this file as listings write it: `r3`, `a0`, `oPos`, `oT2`.
     pub fn register_name(self, index: u32) -> String {
@@ -325,26 +339,91 @@ impl RegisterFile {
 
     /// The register that listings write like this, in letters of either case, whether a version has it or not: the other way from
     /// [`Self::register_name`].
-    pub fn named(name: &str) -> Option<(Self, u32)> {
-        if let Some(i) = RAST_OUT
-            .iter()
-            .position(|row| row.name.eq_ignore_ascii_case(name))
-        {
-            return Some((Self::RastOut, i as u32));
+    pub fn named(name: impl AsRef<[u8]>) -> Option<(Self, u32)> {
+        let name = name.as_ref();
+        match Self::parts(name) {
+            Some((file, digits)) => Some((file, number(digits)?)),
+            None => Some((Self::RastOut, rast_out(name)?)),
         }
-        let files = Self::all().filter(|file| *file != Self::RastOut);
-        files.into_iter().find_map(|file| {
-            let (letters, digits) = name.split_at_checked(file.row().prefix.len())?;
-            let fits = letters.eq_ignore_ascii_case(file.row().prefix)
-                && digits.bytes().all(|b| b.is_ascii_digit());
-            Some((file, digits.parse().ok().filter(|_| fits)?))
-        })
+    }
+
+    /// The file of the registers that begin with the letters of this name, in either case, and the digits behind
+    /// them, which may be none. `None` if it is not letters of a file with digits alone behind them.
+    pub fn parts(name: &[u8]) -> Option<(Self, &[u8])> {
+        let digit = name.iter().position(u8::is_ascii_digit);
+        let (letters, digits) = name.split_at_checked(digit.unwrap_or(name.len()))?;
+        let key = prefix_key(letters)?;
+        let row = FILES.get(PREFIX_KEYS.iter().position(|other| *other == key)?)?;
+        let whole = digits.iter().all(u8::is_ascii_digit);
+        whole.then_some((row.file, digits))
     }
 
     /// The set that holds only this file.
     pub const fn only(self) -> FileSet {
         FileSet(1 << self as u8)
     }
+}
+
+/// The letters before a number, one or two, as a number of its own: the same for letters of either case.
+const fn prefix_key(letters: &[u8]) -> Option<u16> {
+    match letters {
+        [one] => Some(one.to_ascii_lowercase() as u16),
+        [one, two] => {
+            let high = (one.to_ascii_lowercase() as u16) << 8;
+            Some(high | two.to_ascii_lowercase() as u16)
+        }
+        _ => None,
+    }
+}
+
+/// [`prefix_key`] of each file; 0, which is none, where registers have names instead of numbers.
+static PREFIX_KEYS: [u16; FILES.len()] = {
+    let mut keys = [0; FILES.len()];
+    let mut i = 0;
+    while i < FILES.len() {
+        if !matches!(FILES[i].file, RegisterFile::RastOut) {
+            keys[i] = match prefix_key(FILES[i].prefix.as_bytes()) {
+                Some(key) => key,
+                None => panic!("a prefix is one or two letters"),
+            };
+        }
+        i += 1;
+    }
+    keys
+};
+
+/// The register of [`RegisterFile::RastOut`] with this name, in letters of either case.
+pub(crate) fn rast_out(name: &[u8]) -> Option<u32> {
+    let same = |row: &RastOutRow| row.name.as_bytes().eq_ignore_ascii_case(name);
+    let number = RAST_OUT.iter().position(same)?;
+    Some(number as u32)
+}
+
+/// The number that digits write, if it is one of 32 bits.
+pub(crate) fn number(digits: &[u8]) -> Option<u32> {
+    if digits.is_empty() {
+        return None;
+    }
+    digits.iter().try_fold(0u32, |number, digit| {
+        let digit = char::from(*digit).to_digit(10)?;
+        number.checked_mul(10)?.checked_add(digit)
+    })
+}
+
+/// The files that one of these versions has.
+const fn of_versions(versions: VersionSet) -> FileSet {
+    let (mut bits, mut file) = (0, 0);
+    while file < FILES.len() {
+        let mut version = 0;
+        while version < FILES[file].count.len() {
+            if FILES[file].count[version] > 0 && versions.has_number(version) {
+                bits |= FILES[file].file.only().0;
+            }
+            version += 1;
+        }
+        file += 1;
+    }
+    FileSet(bits)
 }
 
 /// A set of register files: those that an operand may name.

@@ -215,7 +215,12 @@ impl VersionSet {
 
     /// Whether the version is in the set.
     pub const fn contains(self, version: Version) -> bool {
-        self.0 & (1 << version as u8) != 0
+        self.has_number(version as usize)
+    }
+
+    /// Whether the version that is so many behind the oldest is in the set.
+    pub(super) const fn has_number(self, number: usize) -> bool {
+        self.0 as usize >> number & 1 != 0
     }
 
     /// The versions of the set, oldest first.

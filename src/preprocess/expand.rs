@@ -53,9 +53,10 @@ impl Preprocessor<'_, '_> {
         if token.painted || self.names.is_empty() {
             return false;
         }
-        let text = token.text(self.sources).into_owned();
-        let Some(&number) = self.names.get(&text) else {
-            return self.expand_stem(token, &text);
+        let text = token.text(self.sources);
+        let Some(&number) = self.names.get(&text[..]) else {
+            let stem = self.macro_stem(token, &text);
+            return stem.is_some_and(|(number, length)| self.replace_stem(number, token, length));
         };
         let Some(used) = self.macros.get(number) else {
             return false;
@@ -78,28 +79,26 @@ impl Preprocessor<'_, '_> {
         self.replace(number, token, at, None, &parameters, &arguments)
     }
 
-    /// `NAME_bx2`, where `NAME` is a macro.
-    fn expand_stem(&mut self, token: &Token, text: &[u8]) -> bool {
-        if !token.more.is_empty() {
-            return false;
+    /// `NAME_bx2`, where `NAME` is a macro: its number and the length of its name.
+    fn macro_stem(&self, token: &Token, text: &[u8]) -> Option<(usize, usize)> {
+        if !token.more.is_empty() || !text.contains(&b'_') {
+            return None;
         }
-        let suffix = SourceModifier::suffixes().find_map(|suffix| {
+        let stem = SourceModifier::suffixes().find_map(|suffix| {
             let at = text.len().checked_sub(suffix.len())?;
             let (stem, end) = text.split_at_checked(at)?;
             end.eq_ignore_ascii_case(suffix.as_bytes()).then_some(stem)
-        });
-        let Some(stem) = suffix else {
-            return false;
-        };
-        let Some(&number) = self.names.get(stem) else {
-            return false;
-        };
-        let usable = |used: &super::Macro| used.parameters.is_none() && !used.active;
-        if !self.macros.get(number).is_some_and(usable) {
-            return false;
-        }
+        })?;
+        let number = *self.names.get(stem)?;
+        let used = self.macros.get(number)?;
+        let usable = used.parameters.is_none() && !used.active;
+        usable.then_some((number, stem.len()))
+    }
+
+    /// Puts a macro in the place of the first part of a name. Always true.
+    fn replace_stem(&mut self, number: usize, token: &Token, length: usize) -> bool {
         let whole = token.span();
-        let middle = whole.start + stem.len() as u32;
+        let middle = whole.start + length as u32;
         let suffix = Token {
             part: Part {
                 source: Span::new(middle, whole.end),

@@ -41,17 +41,18 @@ impl Output {
             Kind::Space => self.write(token.part, b" "),
             Kind::Break => self.write(token.part, b"\n"),
             _ => {
-                self.keep_apart(token, sources);
-                for part in token.parts() {
-                    self.write(part, sources.bytes(part.source));
+                let text = sources.bytes(token.part.source);
+                self.keep_apart(token, text);
+                self.write(token.part, text);
+                for part in &token.more {
+                    self.write(*part, sources.bytes(part.source));
                 }
             }
         }
     }
 
     /// Two words that expansion brings together stay two.
-    fn keep_apart(&mut self, token: &Token, sources: &SourceMap) {
-        let text = sources.bytes(token.part.source);
+    fn keep_apart(&mut self, token: &Token, text: &[u8]) {
         let words = self.bytes.last().is_some_and(|b| is_word(*b))
             && text.first().is_some_and(|b| is_word(*b));
         let same = self.end.is_some_and(|end| continues(end, token.part));

@@ -54,6 +54,20 @@ enum Block {
     Inside,
 }
 
+impl Block {
+    /// Where they are behind a word or sign.
+    fn behind(self, kind: Kind, text: &[u8]) -> Self {
+        match (self, kind) {
+            (block, Kind::Blank | Kind::NewLine | Kind::Splice) => block,
+            (Block::Inside, Kind::Sign) if text == b"}" => Block::Outside,
+            (Block::Inside, _) => Block::Inside,
+            (Block::Announced, Kind::Sign) if text == b"{" => Block::Inside,
+            (_, Kind::Name) if text.eq_ignore_ascii_case(b"asm") => Block::Announced,
+            _ => Block::Outside,
+        }
+    }
+}
+
 /// Splits a text.
 #[derive(Clone, Debug)]
 pub(crate) struct Scanner {
@@ -99,8 +113,8 @@ impl Scanner {
 
     /// The next word or sign; [`Kind::End`] at the end.
     pub(crate) fn next(&mut self) -> Lexeme {
-        let text = Arc::clone(&self.text);
-        let rest = text.get(self.at.min(self.end)..self.end).unwrap_or(&[]);
+        let rest = self.text.get(self.at.min(self.end)..self.end);
+        let rest = rest.unwrap_or(&[]);
         let (kind, length) = self.measure(rest);
         let start = self.base + self.at as u32;
         let open = kind == Kind::Blank
@@ -112,14 +126,15 @@ impl Scanner {
             open,
             first: self.first,
         };
+        if self.language == Language::Host {
+            self.raw &= kind == Kind::Text || !self.begins_raw(rest);
+            self.block = self.block.behind(kind, rest.get(..length).unwrap_or(&[]));
+        }
         self.at += length;
         match kind {
             Kind::NewLine => self.first = true,
             Kind::Blank | Kind::End => {}
             _ => self.first = false,
-        }
-        if self.language == Language::Host {
-            self.follow_blocks(kind, rest.get(..length).unwrap_or(&[]));
         }
         lexeme
     }
@@ -130,33 +145,29 @@ impl Scanner {
         self.first = last.first;
     }
 
-    fn follow_blocks(&mut self, kind: Kind, text: &[u8]) {
-        self.block = match (self.block, kind) {
-            (block, Kind::Blank | Kind::NewLine | Kind::Splice) => block,
-            (Block::Inside, Kind::Sign) if text == b"}" => Block::Outside,
-            (Block::Inside, _) => Block::Inside,
-            (Block::Announced, Kind::Sign) if text == b"{" => Block::Inside,
-            (_, Kind::Name) if text.eq_ignore_ascii_case(b"asm") => Block::Announced,
-            _ => Block::Outside,
-        };
-    }
-
     /// Whether what was read last opens a block of assembly.
     pub(crate) fn inside_block(&self) -> bool {
         self.block == Block::Inside
     }
 
-    fn measure(&mut self, rest: &[u8]) -> (Kind, usize) {
+    /// Whether strings are looked for.
+    fn has_strings(&self) -> bool {
+        self.directive || !self.in_listing()
+    }
+
+    /// Whether a raw string begins here, unless it has no end.
+    fn begins_raw(&self, rest: &[u8]) -> bool {
+        rest.starts_with(b"R\"") && self.has_strings() && self.raw
+    }
+
+    fn measure(&self, rest: &[u8]) -> (Kind, usize) {
         let Some(&first) = rest.first() else {
             return (Kind::End, 0);
         };
-        let strings = self.directive || !self.in_listing();
-        if first == b'R' && rest.get(1) == Some(&b'"') && strings && self.raw {
-            let length = raw_string(rest);
-            self.raw = length.is_some();
-            if let Some(length) = length {
-                return (Kind::Text, length);
-            }
+        if self.begins_raw(rest)
+            && let Some(length) = raw_string(rest)
+        {
+            return (Kind::Text, length);
         }
         match first {
             b'\n' => (Kind::NewLine, 1),
@@ -171,7 +182,7 @@ impl Scanner {
                 let end = find(behind, b"*/").map_or(rest.len(), |at| at + 4);
                 (Kind::Blank, end)
             }
-            b'"' | b'\'' if strings => (Kind::Text, quoted(rest)),
+            b'"' | b'\'' if self.has_strings() => (Kind::Text, quoted(rest)),
             _ if is_blank(first) => (
                 Kind::Blank,
                 rest.iter().take_while(|b| is_blank(**b)).count(),

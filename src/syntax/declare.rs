@@ -253,7 +253,7 @@ impl Parser<'_> {
         let span = self.span_of(start, last);
         let text = self.text_of(span);
         let text = std::str::from_utf8(text).unwrap_or("");
-        let quoted = quote(text.as_bytes());
+        let quoted = || quote(text.as_bytes());
         let mut value = decimal(text);
         if let Some(bits) = hexadecimal(text) {
             return self.bits(bits, span, negative);
@@ -261,7 +261,7 @@ impl Parser<'_> {
         if value.is_none() {
             let mut meant = numbers_for(text);
             meant.retain(|meant| decimal(meant).is_some());
-            let message = format!("{quoted} is no number");
+            let message = format!("{} is no number", quoted());
             match &meant[..] {
                 [] => {}
                 [only] => {
@@ -279,13 +279,13 @@ impl Parser<'_> {
                 None
             }
             None => {
-                let message = format!("{quoted} is no number");
+                let message = format!("{} is no number", quoted());
                 let help = "write it in digits with a point, such as 0.5 or -2";
                 self.error(&rules::NUMBER, span, message, help);
                 None
             }
             Some(value) if !value.is_finite() => {
-                let message = format!("{quoted} is larger than any 32-bit float");
+                let message = format!("{} is larger than any 32-bit float", quoted());
                 let help = "the largest is about 3.4e38";
                 self.error(&rules::NUMBER, span, message, help);
                 None
@@ -315,18 +315,18 @@ impl Parser<'_> {
     pub(super) fn declaration(&mut self, head: Head, usage_text: &str) {
         let start = self.base + head.token.end - (usage_text.len() as u32).min(head.token.end);
         let usage_span = Span::new(start, self.base + head.token.end);
-        let quoted = quote(usage_text.as_bytes());
+        let quoted = || quote(usage_text.as_bytes());
         let usage = match names::usage(usage_text) {
             Found::Exact(found) => Some(found),
             Found::Misread(found, meant) => {
-                let message = format!("{quoted} is no usage");
+                let message = format!("{} is no usage", quoted());
                 self.misread(&rules::DECLARATION, usage_span, message, &meant);
                 Some(found)
             }
             Found::No => {
                 let message = match usage_text {
                     "" => "`dcl` has no usage".to_string(),
-                    _ => format!("{quoted} is no usage"),
+                    _ => format!("{} is no usage", quoted()),
                 };
                 let help = format!("usages are {}", listed(Usage::all().map(|(_, name)| name)));
                 self.error(&rules::DECLARATION, head.span, message, &help);
@@ -334,7 +334,7 @@ impl Parser<'_> {
             }
         };
         if let Some((_, None)) = usage {
-            let message = format!("{quoted} has an index above 15");
+            let message = format!("{} has an index above 15", quoted());
             self.report(Diagnostic::error(&rules::DECLARATION, usage_span, message));
         }
         if head.co_issue {

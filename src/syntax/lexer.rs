@@ -3,14 +3,15 @@
 //! Bytes, not characters: comments of the time are in legacy code pages. White space and comments are dropped; each
 //! token knows whether it begins a line, because lines help to recover from damage though the grammar has none.
 
+use super::names::Stem;
 use super::report::{Reports, quote};
 use super::{comment, rules};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::program::Comment;
 use nom::branch::alt;
-use nom::bytes::complete::{tag, take_till, take_until, take_while, take_while1};
+use nom::bytes::complete::{tag, tag_no_case, take_until, take_while, take_while1};
 use nom::character::complete::{digit0, digit1, one_of};
-use nom::combinator::{map, opt, recognize, value};
+use nom::combinator::{map, opt, recognize, rest, value};
 use nom::{IResult, Parser};
 
 /// What a token is.
@@ -48,6 +49,8 @@ pub(super) struct Token {
     pub(super) line: u32,
     /// Whether it is the first of its line.
     pub(super) first: bool,
+    /// What it names, if it is a word.
+    pub(super) stem: Stem,
 }
 
 /// The tokens of a text, whatever is wrong with it.
@@ -57,8 +60,10 @@ pub(super) fn tokens(text: &[u8]) -> Vec<Token> {
 
 /// The tokens of a text.
 pub(super) struct Lexed {
-    /// Never empty: [`Kind::End`] is the last.
+    /// Never empty: `end` is the last.
     pub(super) tokens: Vec<Token>,
+    /// A token of [`Kind::End`].
+    pub(super) end: Token,
     /// Whether a directive was met that may define names.
     pub(super) names_missing: bool,
     /// The comments that belong to the tokens of the shader; before which statement they stand is not known yet.
@@ -67,6 +72,11 @@ pub(super) struct Lexed {
 
 /// More tokens than the largest text of instructions that any version takes, by far; bounds the memory.
 const MOST_TOKENS: usize = 1 << 20;
+
+/// How long a word or sign is with the white space behind it, roughly, in a listing with some comments; and how many
+/// tokens room is made for at once, so that a long comment does not take any.
+const BYTES_A_TOKEN: usize = 4;
+const FIRST_TOKENS: usize = 256;
 
 /// The first tokens of a text, `most` or one more.
 pub(super) fn lex_some(text: &[u8], most: usize, reports: &mut Reports) -> Vec<Token> {
@@ -87,34 +97,27 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
         directives: Vec::new(),
         comments: Vec::new(),
     };
-    let mut tokens = Vec::new();
+    let mut tokens = Vec::with_capacity((text.len() / BYTES_A_TOKEN).min(FIRST_TOKENS));
     let mut rest = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut first = true;
-    loop {
+    let end = loop {
         let (after, new_line) = lexer.skip_space(rest, first);
         first |= new_line;
         rest = after;
         let start = lexer.offset(rest);
-        let token = |kind, end| Token {
-            kind,
+        let mut token = Token {
+            kind: Kind::End,
             start,
-            end,
+            end: start,
             line: lexer.line,
-            first,
+            first: true,
+            stem: Stem::NONE,
         };
-        // `token` fails only at the end of the text.
+        // `any_token` fails only at the end of the text.
         let Ok((after, kind)) = any_token(rest) else {
-            tokens.push(Token {
-                first: true,
-                ..token(Kind::End, start)
-            });
-            break;
+            break token;
         };
         if tokens.len() == most {
-            tokens.push(Token {
-                first: true,
-                ..token(Kind::End, start)
-            });
             let message = format!(
                 "more than {MOST_TOKENS} words and signs: no listing is so long, the rest is not read"
             );
@@ -122,14 +125,20 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
             lexer
                 .reports
                 .push(Diagnostic::error(&rules::NOT_A_LISTING, span, message));
-            break;
+            break token;
         }
-        tokens.push(token(kind, lexer.offset(after)));
+        (token.kind, token.end, token.first) = (kind, lexer.offset(after), first);
+        if kind == Kind::Word {
+            token.stem = Stem::of(rest.get(..rest.len() - after.len()).unwrap_or(rest));
+        }
+        tokens.push(token);
         rest = after;
         first = false;
-    }
+    };
+    tokens.push(end);
     Lexed {
         tokens,
+        end,
         names_missing: !lexer.directives.is_empty(),
         comments: lexer.comments,
     }
@@ -156,28 +165,35 @@ impl<'a> Lexer<'a, '_> {
         // Whether a line that begins with `;@` continues the last comment of the tokens.
         let mut open = false;
         loop {
-            let before = rest.len();
-            rest = space(rest).map_or(rest, |(after, _)| after);
-            if let Some(after) = rest.strip_prefix(b"\n") {
-                self.line += 1;
-                rest = after;
-                new_line = true;
-                first = true;
-            } else if let Ok((after, text)) = line_comment(rest) {
-                open = self.token_comment(text, self.offset(rest), open);
-                rest = after;
-            } else if rest.starts_with(b"/*") {
-                let after = self.block_comment(rest);
-                let lines = rest[..rest.len() - after.len()].iter();
-                let lines = lines.filter(|b| **b == b'\n').count() as u32;
-                self.line += lines;
-                new_line |= lines > 0;
-                first |= lines > 0;
-                rest = after;
-            } else if first && rest.starts_with(b"#") {
-                rest = self.directive(rest);
-            } else if rest.len() == before {
-                return (rest, new_line);
+            // The first byte says what can stand here.
+            match rest {
+                [b'\n', after @ ..] => {
+                    self.line += 1;
+                    rest = after;
+                    new_line = true;
+                    first = true;
+                }
+                [b';', ..] | [b'/', b'/', ..] => {
+                    let (after, text) = to_line_end(rest).unwrap_or((&[], rest));
+                    open = self.token_comment(text, self.offset(rest), open);
+                    rest = after;
+                }
+                [b'/', b'*', ..] => {
+                    let after = self.block_comment(rest);
+                    let lines = rest[..rest.len() - after.len()].iter();
+                    let lines = lines.filter(|b| **b == b'\n').count() as u32;
+                    self.line += lines;
+                    new_line |= lines > 0;
+                    first |= lines > 0;
+                    rest = after;
+                }
+                [b'#', ..] if first => rest = self.directive(rest),
+                // A no-break space, in UTF-8 and in the code pages of the time.
+                [0xC2, 0xA0, after @ ..] | [0xA0, after @ ..] => rest = after,
+                [blank, ..] if is_blank(*blank) => {
+                    rest = blanks(rest).map_or(&[], |(after, _)| after);
+                }
+                _ => return (rest, new_line),
             }
         }
     }
@@ -260,26 +276,17 @@ impl<'a> Lexer<'a, '_> {
 
 // --- the grammar of single tokens ---
 
-/// Blanks within a line; a no-break space and the end-of-file mark of DOS among them.
-fn space(input: &[u8]) -> IResult<&[u8], ()> {
-    value(
-        (),
-        alt((
-            take_while1(|b: u8| matches!(b, b' ' | b'\t' | b'\r' | 0x0B | 0x0C | 0x1A)),
-            tag(&b"\xC2\xA0"[..]),
-            // The same in the code pages of the time.
-            tag(&b"\xA0"[..]),
-        )),
-    )
-    .parse(input)
+/// Whether a byte is a blank within a line, as the end-of-file mark of DOS is.
+fn is_blank(b: u8) -> bool {
+    matches!(b, b' ' | b'\t' | b'\r' | 0x0B | 0x0C | 0x1A)
+}
+
+fn blanks(input: &[u8]) -> IResult<&[u8], &[u8]> {
+    take_while(is_blank).parse(input)
 }
 
 fn to_line_end(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    take_till(|b| b == b'\n').parse(input)
-}
-
-fn line_comment(input: &[u8]) -> IResult<&[u8], &[u8]> {
-    recognize((alt((tag(";"), tag("//"))), to_line_end)).parse(input)
+    alt((take_until("\n"), rest)).parse(input)
 }
 
 fn closed_comment(input: &[u8]) -> IResult<&[u8], &[u8]> {
@@ -298,9 +305,8 @@ fn is_word(b: u8) -> bool {
 /// `vs` or `ps`, perhaps with the `x` of the Xbox, a separator and what follows without a blank.
 fn version(input: &[u8]) -> IResult<&[u8], Kind> {
     let (input, _) = (
-        opt(one_of("xX")),
-        one_of("vVpP"),
-        one_of("sS"),
+        opt(tag_no_case("x")),
+        alt((tag_no_case("vs"), tag_no_case("ps"))),
         one_of("._"),
         one_of("0123456789lIiOo|"),
         take_while(|b: u8| is_word(b) || b == b'.'),
@@ -341,19 +347,6 @@ fn word(input: &[u8]) -> IResult<&[u8], Kind> {
     value(Kind::Word, take_while1(is_word)).parse(input)
 }
 
-fn sign(input: &[u8]) -> IResult<&[u8], Kind> {
-    alt((
-        value(Kind::Comma, tag(",")),
-        value(Kind::Dot, tag(".")),
-        value(Kind::Plus, tag("+")),
-        value(Kind::Minus, tag("-")),
-        value(Kind::Open, tag("[")),
-        value(Kind::Close, tag("]")),
-        value(Kind::Colon, tag(":")),
-    ))
-    .parse(input)
-}
-
 /// En dash, em dash, hyphen and minus sign in UTF-8, and the en dash of code page 1252.
 fn dash(input: &[u8]) -> IResult<&[u8], Kind> {
     value(
@@ -377,6 +370,20 @@ fn junk(input: &[u8]) -> IResult<&[u8], Kind> {
     value(Kind::Junk, alt((take_while1(plain), one))).parse(input)
 }
 
+/// One token of any kind. Its first bytes say which are to be tried.
 fn any_token(input: &[u8]) -> IResult<&[u8], Kind> {
-    alt((version, number_or_word, word, sign, dash, junk)).parse(input)
+    match input {
+        [b',', after @ ..] => Ok((after, Kind::Comma)),
+        [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..] => number_or_word(input),
+        [b'.', after @ ..] => Ok((after, Kind::Dot)),
+        [b'v' | b'V' | b'p' | b'P', b's' | b'S', ..]
+        | [b'x' | b'X', b'v' | b'V' | b'p' | b'P', ..] => alt((version, word)).parse(input),
+        [first, ..] if is_word(*first) => word(input),
+        [b'+', after @ ..] => Ok((after, Kind::Plus)),
+        [b'-', after @ ..] => Ok((after, Kind::Minus)),
+        [b'[', after @ ..] => Ok((after, Kind::Open)),
+        [b']', after @ ..] => Ok((after, Kind::Close)),
+        [b':', after @ ..] => Ok((after, Kind::Colon)),
+        _ => alt((dash, junk)).parse(input),
+    }
 }

@@ -56,14 +56,17 @@ impl Parser<'_> {
 
     /// Whether a word begins a register, read letter by letter or by its shape.
     fn names_register(&self, at: usize) -> bool {
-        let next = self.token(at + 1);
-        match self.registers(self.token(at)) {
+        let (token, next) = (self.token(at), self.token(at + 1));
+        if self.mnemonic(token).is_some() {
+            return false;
+        }
+        match self.registers(token) {
             Found::Exact(Name::File(_)) => {
                 let digits = self.word(next).bytes().all(|b| b.is_ascii_digit());
                 next.kind == Kind::Open || (next.kind == Kind::Number && !next.first && digits)
             }
             Found::Exact(_) => true,
-            Found::Misread(..) => self.mnemonic(self.token(at)).is_none(),
+            Found::Misread(..) => true,
             Found::No => false,
         }
     }
@@ -71,6 +74,7 @@ impl Parser<'_> {
     /// Reads operands and the commas between them. `expected` is how many the mnemonic takes, if there is one.
     pub(super) fn operand_list(&mut self, expected: Option<usize>) -> List {
         let mut list = List::default();
+        list.operands.reserve(expected.unwrap_or(0));
         loop {
             let (operand, comma_read) = self.operand(list.operands.is_empty());
             list.operands.push(operand);

@@ -26,8 +26,7 @@ impl Parser<'_> {
             return None;
         }
         let mask = mask(written);
-        let in_order = |components: &Vec<u8>| components.is_sorted_by(|a, b| a < b);
-        if !written.components.as_ref().is_none_or(in_order) {
+        if !written.components.is_none_or(|c| c.in_order()) {
             let meant = match mask.text(letters(self.version.kind())) {
                 text if text.is_empty() => "no mask".to_string(),
                 text => format!("`{text}`"),
@@ -99,9 +98,9 @@ impl Parser<'_> {
 
 /// The swizzle that the letters of an operand mean.
 pub(super) fn swizzle(written: &WrittenRegister) -> Swizzle {
-    let components = written.components.as_deref();
+    let components = written.components.as_ref();
     components
-        .and_then(Swizzle::from_components)
+        .and_then(|components| Swizzle::from_components(components.list()))
         .unwrap_or(Swizzle::IDENTITY)
 }
 
@@ -110,6 +109,7 @@ pub(super) fn mask(written: &WrittenRegister) -> WriteMask {
     match &written.components {
         None => WriteMask::ALL,
         Some(components) => components
+            .list()
             .iter()
             .map(|c| WriteMask::component((*c).into()))
             .fold(WriteMask::NONE, WriteMask::or),

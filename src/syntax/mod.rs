@@ -46,6 +46,7 @@ use crate::program::{Program, Register, Statement};
 use crate::rules::text as rules;
 use parser::Parser;
 use report::Reports;
+use std::borrow::Cow;
 
 /// How a text is read.
 #[derive(Clone, Copy, Debug, Default)]
@@ -112,10 +113,13 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         };
     }
     let lexed = lexer::lex(text, base, &mut reports);
+    let words = ascii(text);
     let mut parser = Parser {
         text,
+        words: &words,
         base,
         tokens: lexed.tokens,
+        end: lexed.end,
         at: 0,
         version: options.version.unwrap_or(Version::Vs11),
         names_missing: lexed.names_missing || options.names_missing,
@@ -151,5 +155,14 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         program,
         diagnostics: parser.reports.finish(rest),
         damaged: parser.damaged,
+    }
+}
+
+/// The text with something else in the place of what is not ASCII, unless it is UTF-8: comments are in legacy code pages.
+fn ascii(text: &[u8]) -> Cow<'_, str> {
+    let byte = |b: &u8| if b.is_ascii() { char::from(*b) } else { '?' };
+    match std::str::from_utf8(text) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(text.iter().map(byte).collect()),
     }
 }

@@ -3,6 +3,7 @@
 use super::confuse::{digits_of, distance, only_reading, readings, reads_as};
 use crate::isa::modifier::{SATURATION, SHIFTS};
 use crate::isa::operand::{RGBA, XYZW};
+use crate::isa::register::{number, rast_out};
 use crate::isa::{Opcode, RegisterFile, ShaderKind, SourceModifier, Version};
 use crate::program::Usage;
 
@@ -132,6 +133,14 @@ pub(super) fn exact_result_suffix(text: &str) -> Option<ResultSuffix> {
     Some(suffix)
 }
 
+/// The result suffix that this word is without its underscore.
+pub(super) fn result_suffix_stem(word: &str) -> Option<ResultSuffix> {
+    let stem = |name: &'static str| name.strip_prefix('_').unwrap_or(name);
+    let mut all = result_suffixes();
+    let (suffix, _) = all.find(|(_, name)| stem(name).eq_ignore_ascii_case(word))?;
+    Some(suffix)
+}
+
 /// The result suffix that this text is or can only be a misreading of.
 pub(super) fn result_suffix(text: &str) -> Found<ResultSuffix> {
     let named = |(suffix, name): (_, &str)| (suffix, name.to_string());
@@ -201,23 +210,50 @@ pub(super) enum Name {
 }
 
 /// The register that a word names, whether the version has it or not.
-pub(super) fn exact_register(stem: &str) -> Option<Name> {
-    if let Some((file, number)) = RegisterFile::named(stem) {
-        return Some(Name::Register(file, number));
+pub(super) fn exact_register(stem: impl AsRef<[u8]>) -> Option<Name> {
+    let stem = stem.as_ref();
+    match RegisterFile::parts(stem) {
+        Some((file, [])) => Some(Name::File(file)),
+        Some((file, digits)) => Some(match number(digits) {
+            Some(number) => Name::Register(file, number),
+            None => Name::TooLarge,
+        }),
+        None => Some(Name::Register(RegisterFile::RastOut, rast_out(stem)?)),
     }
-    let of_file = |file: RegisterFile| {
-        let prefix = file.row().prefix;
-        let (letters, digits) = stem.split_at_checked(prefix.len())?;
-        let fits = letters.eq_ignore_ascii_case(prefix)
-            && digits.bytes().all(|b| b.is_ascii_digit())
-            && file != RegisterFile::RastOut;
-        let name = match digits {
-            "" => Name::File(file),
-            _ => Name::TooLarge,
-        };
-        fits.then_some(name)
+}
+
+/// What a word names up to its first underscore, whatever stands around it. It is found once, because a parser asks for
+/// it again and again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stem {
+    /// How many bytes stand before the first underscore.
+    pub(super) length: u32,
+    pub(super) opcode: Option<Opcode>,
+    pub(super) register: Option<Name>,
+}
+
+impl Stem {
+    /// What no word names.
+    pub(super) const NONE: Self = Self {
+        length: 0,
+        opcode: None,
+        register: None,
     };
-    RegisterFile::all().find_map(of_file)
+
+    pub(super) fn of(word: &[u8]) -> Self {
+        let length = word.iter().position(|b| *b == b'_').unwrap_or(word.len());
+        let stem = word.get(..length).unwrap_or(word);
+        let register = exact_register(stem);
+        Self {
+            length: length as u32,
+            // No register is a mnemonic, which a test of `isa` holds.
+            opcode: match register {
+                None => Opcode::from_mnemonic(stem),
+                Some(_) => None,
+            },
+            register,
+        }
+    }
 }
 
 /// The register that a word names or can only be a misreading of, among those of the version.
@@ -301,16 +337,45 @@ pub(super) fn source_suffix(text: &str) -> Found<&'static str> {
 
 /// Whether a word is a suffix without its underscore.
 pub(super) fn is_source_suffix_stem(word: &str) -> bool {
-    SourceModifier::suffixes().any(|s| s.trim_start_matches('_').eq_ignore_ascii_case(word))
+    let stem = |suffix: &'static str| suffix.strip_prefix('_').unwrap_or(suffix);
+    SourceModifier::suffixes().any(|s| stem(s).eq_ignore_ascii_case(word))
+}
+
+/// One to four components in the order in which they are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Components {
+    list: [u8; 4],
+    count: u8,
+}
+
+impl Components {
+    /// With one more; the same if there are four.
+    fn with(mut self, component: u8) -> Self {
+        if let Some(slot) = self.list.get_mut(usize::from(self.count)) {
+            *slot = component;
+            self.count += 1;
+        }
+        self
+    }
+
+    /// Their numbers, 0 to 3.
+    pub(super) fn list(&self) -> &[u8] {
+        self.list.get(..usize::from(self.count)).unwrap_or(&[])
+    }
+
+    /// Whether they stand in order and none twice, as in a write mask.
+    pub(super) fn in_order(&self) -> bool {
+        self.list().is_sorted_by(|a, b| a < b)
+    }
 }
 
 /// Component letters behind a dot: up to four components.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Letters {
     /// As written.
-    Exact(Vec<u8>),
+    Exact(Components),
     /// Misread; what they can be, with the text that was meant.
-    Misread(Vec<(Vec<u8>, String)>),
+    Misread(Vec<(Components, String)>),
     /// Letters of both sets.
     Mixed,
     /// More than four.
@@ -323,17 +388,18 @@ pub(super) enum Letters {
 
 /// Reads the letters behind a dot.
 pub(super) fn letters(text: &str) -> Letters {
-    let exact = |set: [char; 4]| -> Option<Vec<u8>> {
-        let index = |c: char| {
-            let at = set.iter().position(|s| s.eq_ignore_ascii_case(&c));
-            at.map(|i| i as u8)
-        };
-        text.chars().map(index).collect()
+    let exact = |set: [char; 4]| {
+        text.bytes()
+            .try_fold(Components::default(), |begun, letter| {
+                let letter = letter.to_ascii_lowercase();
+                let at = set.iter().position(|c| *c == char::from(letter))?;
+                Some(begun.with(at as u8))
+            })
     };
     let sets = [XYZW, RGBA];
     let in_sets = |c: char| sets.iter().flatten().any(|s| s.eq_ignore_ascii_case(&c));
     if let Some(components) = sets.into_iter().find_map(exact) {
-        return match components.len() {
+        return match text.len() {
             0 => Letters::No,
             1..=4 => Letters::Exact(components),
             _ => Letters::TooMany,
@@ -361,20 +427,20 @@ pub(super) fn letters(text: &str) -> Letters {
 
 /// The components of one set that a text can be a misreading of. A letter of the set is never misread; `vv` is two
 /// letters or the `w` that a scanner has split.
-fn misread(text: &str, set: [char; 4]) -> Vec<(Vec<u8>, String)> {
+fn misread(text: &str, set: [char; 4]) -> Vec<(Components, String)> {
     // Two letters for each of four components.
     const LONGEST: usize = 8;
     let mut whole = Vec::new();
     if text.len() > LONGEST || !text.is_ascii() {
         return whole;
     }
-    let mut begun = vec![(text, Vec::new(), String::new())];
+    let mut begun = vec![(text, Components::default(), String::new())];
     while let Some((rest, components, meant)) = begun.pop() {
         if rest.is_empty() {
             whole.push((components, meant));
             continue;
         }
-        if components.len() == 4 {
+        if components.list().len() == 4 {
             continue;
         }
         let one = rest.get(..1).unwrap_or("");
@@ -390,8 +456,7 @@ fn misread(text: &str, set: [char; 4]) -> Vec<(Vec<u8>, String)> {
                     reads_as(part, &letter.to_string())
                 };
                 if reads {
-                    let mut components: Vec<u8> = components.clone();
-                    components.push(i as u8);
+                    let components = components.with(i as u8);
                     begun.push((after, components, format!("{meant}{letter}")));
                 }
             }

@@ -1,7 +1,7 @@
 //! Operands as they are written, before it is known which is the destination.
 
 use super::lexer::{Kind, Token};
-use super::names::{self, Found, Letters, Name, ResultSuffix};
+use super::names::{self, Components, Found, Letters, Name, ResultSuffix};
 use super::parser::Parser;
 use super::report::{names as listed, quote};
 use super::rules;
@@ -33,7 +33,7 @@ pub(super) struct WrittenRegister {
     /// Nothing or a source suffix.
     pub(super) suffix: &'static str,
     /// The letters behind the dot.
-    pub(super) components: Option<Vec<u8>>,
+    pub(super) components: Option<Components>,
     /// Where they stand.
     pub(super) components_span: Span,
     /// Whether something in it was reported that cannot be repaired.
@@ -83,18 +83,32 @@ impl<'a> Parser<'a> {
         if let Some((suffix, at)) = suffix {
             self.suffix(&mut operand, suffix, at);
         }
-        self.index(&mut operand);
+        let next = self.peek();
+        // Most operands end here.
+        let ends = next.kind == Kind::Comma || next.kind == Kind::Word && next.first;
+        let comma_read = !ends && self.behind_register(&mut operand);
+        operand.span = match comma_read {
+            true => self.span_of(first, self.token(self.at.saturating_sub(2))),
+            false => self.span_from(first),
+        };
+        (Written::Register(operand), comma_read)
+    }
+
+    /// What follows the word of a register: index, suffix, components. True if a comma behind them was read that is
+    /// written otherwise.
+    fn behind_register(&mut self, operand: &mut WrittenRegister) -> bool {
+        self.index(operand);
         let next = self.peek();
         if next.kind == Kind::Word
             && self.glued(self.previous(), next)
             && self.word(next).starts_with('_')
         {
             self.bump();
-            self.suffix(&mut operand, self.word(next), self.span(next));
+            self.suffix(operand, self.word(next), self.span(next));
         }
-        self.lost_underscore(&mut operand);
-        let mut comma_read = self.selector(&mut operand);
-        self.lost_underscore(&mut operand);
+        self.lost_underscore(operand);
+        let mut comma_read = self.selector(operand);
+        self.lost_underscore(operand);
         let (dot, next) = (self.peek(), self.token(self.at + 1));
         let stands_for_comma = dot.kind == Kind::Dot && !dot.first && !next.first;
         if !comma_read && stands_for_comma && self.has_register(next) {
@@ -103,16 +117,15 @@ impl<'a> Parser<'a> {
             self.misread(&rules::SEPARATOR, self.span(dot), message, ",");
             comma_read = true;
         }
-        operand.span = match comma_read {
-            true => self.span_of(first, self.token(self.at.saturating_sub(2))),
-            false => self.span_from(first),
-        };
-        (Written::Register(operand), comma_read)
+        comma_read
     }
 
     /// `-` and `1-`, and whether something else was found and reported. `None` if no operand can follow.
     fn prefix(&mut self) -> Option<(&'static str, bool)> {
         let first = self.peek();
+        if first.kind == Kind::Word {
+            return Some(("", false));
+        }
         let mut minuses = 0;
         loop {
             let token = self.peek();
@@ -185,14 +198,13 @@ impl<'a> Parser<'a> {
 
     /// The register of a word, with the suffix in the same word and whether it was certainly meant.
     fn register(&mut self, token: Token, is_first: bool) -> Option<(Register, Suffix<'a>, bool)> {
-        let word = self.word(token);
-        let (stem, suffix) = word.split_at(word.find('_').unwrap_or(word.len()));
+        let (stem, suffix) = self.stem(token);
         let suffix_start = self.base + token.start + stem.len() as u32;
         let suffix_span = Span::new(suffix_start, self.base + token.end);
         let suffix = (!suffix.is_empty()).then_some((suffix, suffix_span));
         let stem_span = Span::new(self.base + token.start, suffix_start);
         let mut sure = true;
-        let name = match names::register(stem, self.version) {
+        let name = match self.registers(token) {
             Found::Exact(name) => name,
             Found::Misread(name, meant) => {
                 let message = format!("`{stem}` is no register");
@@ -402,12 +414,15 @@ impl<'a> Parser<'a> {
         };
         let start = self.base + dot.start + 1;
         let start = start.max(self.base + token.start);
-        let (text, suffix) = text.split_at(text.find('_').unwrap_or(text.len()));
+        let underscore = text.bytes().position(|b| b == b'_');
+        let (text, suffix) = text.split_at(underscore.unwrap_or(text.len()));
         let end = start + text.len() as u32;
         let span = Span::new(start, end);
         operand.components_span = span;
+        let letters = names::letters(text);
         // `r4.x2`: the suffix of a modifier, behind a dot instead of an underscore.
-        if names::has_source_suffixes(self.version)
+        if !matches!(letters, Letters::Exact(_))
+            && names::has_source_suffixes(self.version)
             && names::is_source_suffix_stem(text)
             && suffix.is_empty()
         {
@@ -421,7 +436,7 @@ impl<'a> Parser<'a> {
         if suffix.is_empty() && self.split_mask(operand, text, span) {
             return false;
         }
-        self.components(operand, text, span);
+        self.components(operand, letters, text, span);
         if !suffix.is_empty() {
             let at = Span::new(end, end + suffix.len() as u32);
             if operand.suffix.is_empty() && names::source_suffix(suffix) != Found::No {
@@ -449,7 +464,7 @@ impl<'a> Parser<'a> {
             return false;
         };
         let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
-        if !(any_order || components.is_sorted_by(|a, b| a < b)) {
+        if !(any_order || components.in_order()) {
             return false;
         }
         self.bump();
@@ -466,23 +481,29 @@ impl<'a> Parser<'a> {
         true
     }
 
-    fn components(&mut self, operand: &mut WrittenRegister, text: &str, span: Span) {
-        let quoted = quote(text.as_bytes());
-        let mut found = names::letters(text);
+    /// What the letters behind the dot, which are `text`, name.
+    fn components(
+        &mut self,
+        operand: &mut WrittenRegister,
+        mut found: Letters,
+        text: &str,
+        span: Span,
+    ) {
+        let quoted = || quote(text.as_bytes());
         let (message, help) = match &mut found {
             Letters::Exact(components) => {
-                operand.components = Some(std::mem::take(components));
+                operand.components = Some(*components);
                 return;
             }
             Letters::Misread(readings) => {
                 // Only sources of vertex shaders name components in any order.
                 let any_order = !operand.first && self.version.kind() == ShaderKind::Vertex;
-                readings.retain(|(letters, _)| any_order || letters.is_sorted_by(|a, b| a < b));
-                let message = format!("{quoted} are no components");
-                match &mut readings[..] {
+                readings.retain(|(letters, _)| any_order || letters.in_order());
+                let message = format!("{} are no components", quoted());
+                match &readings[..] {
                     [] => (message, "components are letters of xyzw or of rgba"),
                     [(components, meant)] => {
-                        operand.components = Some(std::mem::take(components));
+                        operand.components = Some(*components);
                         self.misread(&rules::SELECTOR, span, message, meant);
                         return;
                     }
@@ -497,19 +518,19 @@ impl<'a> Parser<'a> {
                 }
             }
             Letters::Mixed => (
-                format!("{quoted} mixes the letters xyzw and rgba"),
+                format!("{} mixes the letters xyzw and rgba", quoted()),
                 "take all letters from one of the two",
             ),
             Letters::TooMany => (
-                format!("{quoted} has more than four letters"),
+                format!("{} has more than four letters", quoted()),
                 "a register has four components",
             ),
             Letters::OtherLanguage => (
-                format!("{quoted} are components of another language"),
+                format!("{} are components of another language", quoted()),
                 "Direct3D 8 has xyzw and rgba",
             ),
             Letters::No => (
-                format!("{quoted} are no components"),
+                format!("{} are no components", quoted()),
                 "components are letters of xyzw or of rgba",
             ),
         };
@@ -526,9 +547,12 @@ impl<'a> Parser<'a> {
 
     /// `r4 x2`: a suffix whose underscore is lost.
     fn lost_underscore(&mut self, operand: &mut WrittenRegister) {
-        let (before, next) = (self.previous(), self.peek());
-        let word = self.word(next);
-        if next.first || next.kind != Kind::Word || !names::is_source_suffix_stem(word) {
+        let next = self.peek();
+        if next.first || next.kind != Kind::Word {
+            return;
+        }
+        let (before, word) = (self.previous(), self.word(next));
+        if !names::is_source_suffix_stem(word) {
             return;
         }
         self.bump();

@@ -1,7 +1,7 @@
 //! The state of reading one text: a cursor over its tokens.
 
 use super::lexer::{Kind, Token};
-use super::names::{Found, Name, exact_register, register};
+use super::names::{Found, Name, Stem, exact_register, register};
 use super::report::{Reports, alternatives, quote};
 use super::{Damage, rules};
 use crate::diagnostic::{Diagnostic, Fix, Rule, Span};
@@ -11,8 +11,12 @@ use crate::program::{Register, Statement};
 /// Reads the statements of one text.
 pub(super) struct Parser<'a> {
     pub(super) text: &'a [u8],
+    /// The same as text, of the same length: words and numbers as they are, of which all bytes are ASCII.
+    pub(super) words: &'a str,
     pub(super) base: u32,
     pub(super) tokens: Vec<Token>,
+    /// The last of them.
+    pub(super) end: Token,
     pub(super) at: usize,
     pub(super) version: Version,
     /// Whether names may have been defined that are not known here.
@@ -54,15 +58,7 @@ impl<'a> Parser<'a> {
 
     /// Token number `at`; [`Kind::End`] behind the last.
     pub(super) fn token(&self, at: usize) -> Token {
-        const END: Token = Token {
-            kind: Kind::End,
-            start: 0,
-            end: 0,
-            line: 0,
-            first: true,
-        };
-        let last = || self.tokens.last().copied().unwrap_or(END);
-        self.tokens.get(at).copied().unwrap_or_else(last)
+        self.tokens.get(at).copied().unwrap_or(self.end)
     }
 
     /// Takes the next token; stays at the end.
@@ -90,9 +86,10 @@ impl<'a> Parser<'a> {
             .unwrap_or(&[])
     }
 
-    /// The text of a token; empty if it is no text, which only junk is.
+    /// The text of a word or a number.
     pub(super) fn word(&self, token: Token) -> &'a str {
-        std::str::from_utf8(self.bytes(token)).unwrap_or("")
+        let range = token.start as usize..token.end as usize;
+        self.words.get(range).unwrap_or("")
     }
 
     pub(super) fn quoted(&self, token: Token) -> String {
@@ -197,20 +194,22 @@ impl<'a> Parser<'a> {
 
     /// The opcode of a word that is a mnemonic, with or without suffixes.
     pub(super) fn mnemonic(&self, token: Token) -> Option<Opcode> {
-        if token.kind != Kind::Word {
-            return None;
-        }
+        token.stem.opcode
+    }
+
+    /// A word before its first underscore, and from there on.
+    pub(super) fn stem(&self, token: Token) -> (&'a str, &'a str) {
         let word = self.word(token);
-        Opcode::from_mnemonic(word.split_once('_').map_or(word, |(stem, _)| stem))
+        word.split_at_checked(token.stem.length as usize)
+            .unwrap_or((word, ""))
     }
 
     /// Whether a word names a register, or can only be a misreading of one.
     pub(super) fn registers(&self, token: Token) -> Found<Name> {
-        let word = self.word(token);
-        let stem = word.split_once('_').map_or(word, |(stem, _)| stem);
-        match token.kind {
-            Kind::Word => register(stem, self.version),
-            _ => Found::No,
+        match (token.stem.register, token.kind) {
+            (Some(name), _) => Found::Exact(name),
+            (None, Kind::Word) => register(self.stem(token).0, self.version),
+            (None, _) => Found::No,
         }
     }
 
@@ -227,9 +226,7 @@ impl<'a> Parser<'a> {
 
     /// The register that a word names as it should, whether the version has it or not.
     fn named_register(&self, token: Token) -> Option<(RegisterFile, u32)> {
-        let word = self.word(token);
-        let stem = word.split_once('_').map_or(word, |(stem, _)| stem);
-        match exact_register(stem).filter(|_| token.kind == Kind::Word) {
+        match token.stem.register {
             Some(Name::Register(file, index)) => Some((file, index)),
             _ => None,
         }
@@ -390,11 +387,14 @@ impl<'a> Parser<'a> {
 
     /// Makes two tokens of the next one, the first of `length` bytes.
     pub(super) fn split_token(&mut self, length: usize) {
+        let whole = self.peek();
+        let (mut first, mut rest) = (whole, whole);
+        first.end = whole.start + length as u32;
+        (rest.start, rest.first) = (first.end, false);
+        first.stem = Stem::of(self.bytes(first));
+        rest.stem = Stem::of(self.bytes(rest));
         if let Some(token) = self.tokens.get_mut(self.at) {
-            let mut rest = *token;
-            rest.start += length as u32;
-            rest.first = false;
-            token.end = rest.start;
+            *token = first;
             self.tokens.insert(self.at + 1, rest);
         }
     }

@@ -112,21 +112,21 @@ impl Parser<'_> {
         self.at = behind;
         let span = self.span_from(self.token(first));
         let text = self.text_of(span);
-        let quoted = quote(text);
+        let quoted = || quote(text);
         let version = match reading {
             VersionText::Exact(version) => version,
             VersionText::Mixed(version) => {
-                let message = format!("{quoted} mixes the two spellings of the version");
+                let message = format!("{} mixes the two spellings of the version", quoted());
                 self.misread(&rules::VERSION_UNKNOWN, span, message, version.name());
                 version
             }
             VersionText::Misread(version) => {
-                let message = format!("{quoted} is no version");
+                let message = format!("{} is no version", quoted());
                 self.misread(&rules::VERSION_UNKNOWN, span, message, version.name());
                 version
             }
             VersionText::Unknown => {
-                let message = format!("{quoted} is no version of Direct3D 8");
+                let message = format!("{} is no version of Direct3D 8", quoted());
                 let help = if text.starts_with(b"x") || text.starts_with(b"X") {
                     "it is of the Xbox, whose instructions are not all those of Direct3D 8"
                 } else if text.get(3).is_some_and(|b| (b'2'..=b'9').contains(b)) {

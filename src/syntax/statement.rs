@@ -85,29 +85,27 @@ impl Parser<'_> {
     }
 
     fn word_statement(&mut self, token: Token, co_issue: bool) {
-        let word = self.word(token);
-        let (stem, _) = word.split_at(word.find('_').unwrap_or(word.len()));
+        let (stem, _) = self.stem(token);
         let next = self.token(self.at + 1);
-        let operand_follows =
-            self.begins_operand(self.at + 1) && self.token(self.at + 1).kind == Kind::Word;
         let alone = next.first;
         // Disassemblers leave such lines behind.
-        if word.eq_ignore_ascii_case("debug") && !co_issue {
+        if self.word(token).eq_ignore_ascii_case("debug") && !co_issue {
             return self.skip_line();
         }
         if self.lost_space(token, co_issue) {
             return;
         }
-        if let Some(opcode) = Opcode::from_mnemonic(stem) {
+        if let Some(opcode) = self.mnemonic(token) {
             // `tex ld r0, t0`: two words that are one mnemonic.
-            let whole = opcode.form(self.version).is_some() && self.begins_operand(self.at + 1);
+            let operand = !alone && self.begins_operand(self.at + 1);
+            let whole = operand && opcode.form(self.version).is_some();
             if !whole && !alone && self.split_mnemonic(token, co_issue) {
                 return;
             }
             // `add the two together`: prose that begins with a mnemonic.
             let prose = !alone
                 && next.kind == Kind::Word
-                && !self.begins_operand(self.at + 1)
+                && !operand
                 && self.words_of_prose(self.at + 1) > 1;
             return if prose {
                 self.stray_text(false);
@@ -118,6 +116,7 @@ impl Parser<'_> {
         if self.split_mnemonic(token, co_issue) {
             return;
         }
+        let operand_follows = next.kind == Kind::Word && self.begins_operand(self.at + 1);
         let register = self.registers(token);
         if let Found::Exact(Name::Register(..) | Name::TooLarge) = register {
             let separated = matches!(next.kind, Kind::Comma | Kind::Dot | Kind::Open);
@@ -136,7 +135,7 @@ impl Parser<'_> {
             if let Found::Misread(..) = names::opcode(stem, self.version) {
                 return self.instruction(token, stem, co_issue);
             }
-            if let Some(meant) = names::joined_suffixes(word) {
+            if let Some(meant) = names::joined_suffixes(self.word(token)) {
                 self.bump();
                 let message = format!("the underscore in {} is lost", self.quoted(token));
                 self.misread(&rules::RESULT_SUFFIX, self.span(token), message, &meant);
@@ -294,8 +293,7 @@ impl Parser<'_> {
     /// An instruction whose mnemonic is in the next word.
     fn instruction(&mut self, token: Token, stem: &str, co_issue: bool) {
         self.bump();
-        let word = self.word(token);
-        let suffixes = word.get(stem.len()..).unwrap_or("");
+        let suffixes = self.word(token).get(stem.len()..).unwrap_or("");
         self.body(token, stem, suffixes, co_issue);
     }
 
@@ -334,19 +332,24 @@ impl Parser<'_> {
     fn result_suffixes(&mut self, head: &mut Head, suffixes: &str) {
         let mut at = self.base + head.token.end.saturating_sub(suffixes.len() as u32);
         let mut shifted = false;
-        for part in suffixes.split('_').skip(1) {
-            let span = Span::new(at, at + 1 + part.len() as u32);
-            at = span.end;
-            self.result_suffix(head, &format!("_{part}"), span, &mut shifted);
+        let mut rest = suffixes;
+        while !rest.is_empty() {
+            let next = rest.bytes().skip(1).position(|b| b == b'_');
+            let (part, others) = rest.split_at(next.map_or(rest.len(), |length| length + 1));
+            let span = Span::new(at, at + part.len() as u32);
+            (at, rest) = (span.end, others);
+            self.result_suffix(head, part, span, &mut shifted);
         }
         // `mul x2 r0, …`: the underscore is lost.
         while let next = self.peek()
             && next.kind == Kind::Word
             && !next.first
+            && next.stem.register.is_none()
             && self.token(self.at + 1).kind != Kind::Comma
-            && let stem = format!("_{}", self.word(next).trim_start_matches('_'))
-            && names::exact_result_suffix(&stem).is_some()
+            && let word = self.word(next).trim_start_matches('_')
+            && names::result_suffix_stem(word).is_some()
         {
+            let stem = format!("_{word}");
             let before = self.previous();
             self.bump();
             let span = Span::new(self.base + before.end, self.base + next.end);
@@ -555,7 +558,7 @@ impl Parser<'_> {
             whole &= destination.is_some();
             destination
         });
-        let mut sources = Vec::new();
+        let mut sources = Vec::with_capacity(operands.len());
         for operand in operands {
             match self.source(operand) {
                 Some(source) => sources.push(source),

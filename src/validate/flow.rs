@@ -91,7 +91,7 @@ fn reads(
     temporaries: &mut [Temporary; TEMPORARIES],
     report: &mut Report,
 ) {
-    for read in line.reads() {
+    for read in listing.reads(line) {
         if read.register.file != RegisterFile::Temp
             || read.register.relative
             || !listing.exists(read.register)
@@ -103,9 +103,9 @@ fn reads(
             continue;
         };
         if line.instruction.opcode == Opcode::TexLd {
-            dependent_read(listing, line, &read, temporary, report);
+            dependent_read(listing, line, read, temporary, report);
         } else {
-            component_read(listing, &read, temporary, report);
+            component_read(listing, read, temporary, report);
         }
     }
 }
@@ -117,6 +117,9 @@ fn component_read(listing: &Listing, read: &Read, temporary: &mut Temporary, rep
         .components
         .without(temporary.written)
         .without(temporary.told);
+    if missing.is_empty() {
+        return;
+    }
     temporary.told = temporary.told.or(missing);
     let losses = [
         (Code::I5, temporary.lost_to_depth),

@@ -29,6 +29,8 @@ pub(super) struct Line<'p> {
     pub(super) joined: bool,
     /// Whether it is half of a pair, the first or the second.
     pub(super) paired: bool,
+    /// Where its reads begin and end among those of the listing.
+    reads: (usize, usize),
 }
 
 /// A register that an instruction reads.
@@ -49,6 +51,8 @@ pub(super) struct Listing<'p> {
     pub(super) has_phase: bool,
     /// The `t#` that something in `ps.1.4` is written to, which cannot be.
     pub(super) written_coordinates: HashSet<Register>,
+    /// What the lines read, one after the other.
+    reads: Vec<Read>,
     unread: Unread,
 }
 
@@ -83,7 +87,9 @@ impl<'p> Listing<'p> {
         } else {
             Phase::Second
         };
-        let mut lines: Vec<Line<'p>> = Vec::new();
+        let most = program.statements.len();
+        let mut lines: Vec<Line<'p>> = Vec::with_capacity(most);
+        let mut reads = Vec::with_capacity(2 * most);
         for instruction in program.instructions() {
             let mut line = Line {
                 instruction,
@@ -91,7 +97,10 @@ impl<'p> Listing<'p> {
                 phase,
                 joined: false,
                 paired: false,
+                reads: (reads.len(), 0),
             };
+            line.add_reads(&mut reads);
+            line.reads.1 = reads.len();
             line.joined = instruction.co_issue
                 && line.can_pair()
                 && lines.last().is_some_and(|l| l.can_pair() && !l.joined);
@@ -115,8 +124,14 @@ impl<'p> Listing<'p> {
             written_coordinates: written_coordinates.collect(),
             lines,
             has_phase,
+            reads,
             unread: Unread::new(unread),
         }
+    }
+
+    /// What a line reads, the rows of a matrix one by one.
+    pub(super) fn reads(&self, line: &Line) -> &[Read] {
+        self.reads.get(line.reads.0..line.reads.1).unwrap_or(&[])
     }
 
     pub(super) fn is_pixel(&self) -> bool {
@@ -212,13 +227,11 @@ impl Line<'_> {
         self.form.is_none() || self.is_arithmetic()
     }
 
-    /// What it reads, the rows of a matrix one by one.
-    pub(super) fn reads(&self) -> Vec<Read> {
+    fn add_reads(&self, reads: &mut Vec<Read>) {
         let Some(form) = self.form else {
-            return Vec::new();
+            return;
         };
         let mask = self.instruction.destination.map_or(WriteMask::ALL, used);
-        let mut reads = Vec::new();
         if let (Some(shape), Some(looked_at)) = (form.destination, self.instruction.destination)
             && !shape.written
             // Without r# among its registers it looks at the coordinates that come in, not at a register.
@@ -253,7 +266,6 @@ impl Line<'_> {
                 });
             }
         }
-        reads
     }
 
     /// The components of its register that `texkill` and `texdepth` look at.

@@ -559,9 +559,8 @@ fn matrix(listing: &Listing, line: &Line, form: &Form, report: &mut Report) {
             );
         }
     }
-    let read = line.reads();
     let is_own = |r: &&super::listing::Read| r.register == destination.register;
-    if let Some(own) = read.iter().find(is_own) {
+    if let Some(own) = listing.reads(line).iter().find(is_own) {
         report.breach(
             Code::O20,
             own.span,

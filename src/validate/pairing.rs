@@ -140,7 +140,7 @@ pub(super) fn could_pair(listing: &Listing, first: &Line, second: &Line) -> bool
     };
     // Both halves read before either writes.
     let waits = first.writes().is_some_and(|(register, mask)| {
-        let reads = second.reads();
+        let reads = listing.reads(second);
         let waits = |r: &Read| r.register == register && !r.components.and(mask).is_empty();
         reads.iter().any(waits)
     });

@@ -43,7 +43,11 @@ fn stages_increase(listing: &Listing, report: &mut Report) {
         let Some((before, earlier)) = last.filter(|(before, _)| stage <= *before) else {
             continue;
         };
-        if line.reads().iter().any(|read| is_no_lower(read, stage)) {
+        if listing
+            .reads(line)
+            .iter()
+            .any(|read| is_no_lower(read, stage))
+        {
             continue; // T3 speaks of what it reads, which follows from the order.
         }
         // texkill writes nothing; whether it takes part in the order is not written down.
@@ -326,7 +330,7 @@ fn contents_are_readable(listing: &Listing, broken: &[bool; STAGES], report: &mu
         for line in group {
             let is_register =
                 |r: &&Read| r.register.file == RegisterFile::Texture && listing.exists(r.register);
-            for read in line.reads().iter().filter(is_register) {
+            for read in listing.reads(line).iter().filter(is_register) {
                 if listing.hides_write(read.register, read.span) {
                     continue;
                 }

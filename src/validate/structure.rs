@@ -1,6 +1,6 @@
 //! S2 to S14: which instructions stand where, and what a shader has to write.
 
-use super::listing::{Line, Listing, Phase};
+use super::listing::{Listing, Phase};
 use super::report::Report;
 use crate::isa::register::OPOS;
 use crate::isa::{Opcode, RegisterFile, Version, WriteMask};
@@ -191,9 +191,12 @@ fn position_is_written(listing: &Listing, report: &mut Report) {
 
 /// S11. Each input is named once.
 fn inputs_are_declared(listing: &Listing, report: &mut Report) {
+    if !report.has(Code::S11) {
+        return;
+    }
     let declarations = listing.program.declarations();
     let mut known: HashSet<Register> = declarations.map(|d| d.register).collect();
-    for read in listing.lines.iter().flat_map(Line::reads) {
+    for read in listing.lines.iter().flat_map(|line| listing.reads(line)) {
         let register = read.register;
         let is_input = register.file == RegisterFile::Input && listing.exists(register);
         if is_input

@@ -77,7 +77,7 @@ pub fn uses(program: &Program) -> Vec<Use> {
         let Some(line) = lines.next() else { continue };
         groups += usize::from(!line.joined);
         let group = groups - 1;
-        for read in line.reads() {
+        for read in listing.reads(line) {
             if read.register.relative && read.row == 0 {
                 let address = Register::new(RegisterFile::Addr, 0);
                 add(address, WriteMask::X, UseKind::Read, read.span, group);

@@ -226,14 +226,6 @@ impl Opcode {
             .fold(VersionSet::NONE, |set, form| set.and(form.versions))
     }
 
-    /// The opcode with this mnemonic, in any case of letters.
-    pub fn from_mnemonic(mnemonic: &str) -> Option<Self> {
-        OPCODES
-            .iter()
-            .find(|row| row.mnemonic.eq_ignore_ascii_case(mnemonic))
-            .map(|row| row.opcode)
-    }
-
     /// The opcode with this token number in this version.
     pub fn from_token(token: u16, version: Version) -> Option<Self> {
         OPCODES
@@ -246,12 +238,11 @@ impl Opcode {
     /// The opcode that this token number stands for in a shader of this version, whether the version has it or not:
     /// a number that only one opcode has can mean nothing else.
     pub fn meant_by(token: u16, version: Version) -> Option<Self> {
-        let mut all = OPCODES.iter().filter(|row| row.token == token);
-        let only = match (all.next(), all.next()) {
-            (Some(only), None) => Some(only.opcode),
-            _ => None,
-        };
-        Self::from_token(token, version).or(only)
+        Self::from_token(token, version).or_else(|| {
+            let mut all = OPCODES.iter().filter(|row| row.token == token);
+            let first = all.next().filter(|_| all.next().is_none());
+            first.map(|only| only.opcode)
+        })
     }
 }
 
@@ -269,7 +260,8 @@ impl Form {
 const COUNT: usize = Opcode::Phase as usize + 1;
 
 /// One row an opcode, in the order of [`Opcode`].
-static OPCODES: [OpcodeRow; COUNT] = in_order(&[&arithmetic::ROWS, &vertex::ROWS, &texture::ROWS]);
+pub(super) static OPCODES: [OpcodeRow; COUNT] =
+    in_order(&[&arithmetic::ROWS, &vertex::ROWS, &texture::ROWS]);
 
 /// The rows of all groups, each at the place of its opcode. Does not compile if one is missing or there twice.
 const fn in_order(groups: &[&[OpcodeRow]]) -> [OpcodeRow; COUNT] {

@@ -7,7 +7,7 @@ pub use room::{FullPorts, PossiblePair};
 pub use stages::{Coordinates, Stage};
 
 use super::budgets;
-use super::listing::{Line, Listing};
+use super::listing::Listing;
 use crate::diagnostic::Span;
 use crate::isa::{RegisterFile, Version};
 use crate::program::Program;
@@ -158,7 +158,7 @@ fn named_registers(listing: &Listing) -> BTreeSet<(RegisterFile, u32)> {
         .lines
         .iter()
         .filter_map(|l| l.instruction.destination);
-    let reads = listing.lines.iter().flat_map(Line::reads);
+    let reads = listing.lines.iter().flat_map(|line| listing.reads(line));
     let registers = definitions
         .chain(destinations.map(|d| d.register))
         .chain(reads.map(|r| r.register));
