@@ -28,6 +28,11 @@ impl Report {
         }
     }
 
+    /// Whether the dialect has a rule.
+    pub(super) fn speaks_of(&self, code: Code) -> bool {
+        code.severity(self.dialect).is_some()
+    }
+
     /// Adds a breach, as severe as the dialect has it.
     pub(super) fn breach(
         &mut self,

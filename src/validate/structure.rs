@@ -191,6 +191,9 @@ fn position_is_written(listing: &Listing, report: &mut Report) {
 
 /// S11. Each input is named once.
 fn inputs_are_declared(listing: &Listing, report: &mut Report) {
+    if !report.speaks_of(Code::S11) {
+        return;
+    }
     let declarations = listing.program.declarations();
     let mut known: HashSet<Register> = declarations.map(|d| d.register).collect();
     for read in listing.lines.iter().flat_map(Line::reads) {
