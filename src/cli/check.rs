@@ -6,7 +6,7 @@ use serde_json::json;
 use std::path::Path;
 use texcrd::diagnostic::{Diagnostic, SourceMap, any_error};
 use texcrd::program::Program;
-use texcrd::{syntax, validate};
+use texcrd::{extract, validate};
 
 /// Says everything that is wrong with listings.
 ///
@@ -78,32 +78,12 @@ fn check(arguments: &Arguments, path: &str) -> Result<bool, Failure> {
 
 /// Repairs a file until nothing certain is left to repair, and writes it back.
 fn fix(arguments: &Arguments, path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
-    // One repair can uncover the next: a lost semicolon hides what stands in the line.
-    const ROUNDS: usize = 8;
-    let mut bytes = original.clone();
-    let mut repaired = 0;
-    for _ in 0..ROUNDS {
-        let mut sources = SourceMap::new();
-        let opened = arguments
-            .reading
-            .open_bytes(&mut sources, path, bytes.clone())?;
-        let (_, found) = arguments
-            .reading
-            .check_all(&mut sources, path, &opened, true)?;
-        let Some(file) = sources
-            .file_of(opened.file.span.start)
-            .filter(|f| f.bytes() == bytes)
-        else {
-            // Tokens have nothing to repair.
-            break;
-        };
-        let (fixed, count) = syntax::apply_fixes(&sources, file, &found);
-        if count == 0 {
-            break;
-        }
-        repaired += count;
-        bytes = fixed;
-    }
+    let read = |sources: &mut SourceMap, bytes: Vec<u8>| {
+        let opened = arguments.reading.open_bytes(sources, path, bytes)?;
+        let (_, found) = arguments.reading.check_all(sources, path, &opened, true)?;
+        Ok((opened.file, found))
+    };
+    let (bytes, repaired) = extract::repair(original.clone(), read)?;
     // What came from standard input goes to standard output, repaired or not.
     if path == "-" || bytes != original {
         files::write(Path::new(path), &bytes)?;
@@ -117,10 +97,7 @@ fn fix(arguments: &Arguments, path: &str, original: Vec<u8>) -> Result<Vec<u8>, 
 
 fn report(arguments: &Arguments, sources: &SourceMap, name: &str, found: &[Diagnostic]) -> Outcome {
     if arguments.format == Format::Json {
-        for diagnostic in found {
-            print_json(&diagnostics::to_json(sources, diagnostic))?;
-        }
-        return Ok(());
+        return diagnostics::tell(Format::Json, sources, found);
     }
     let mut text = diagnostics::render(sources, found);
     let summary = diagnostics::summary(found);

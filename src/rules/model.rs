@@ -431,6 +431,8 @@ model! {
     D4 REFUSED "D3DVSD_CONST loads 1 to 15 constants, none above the 96 that every device has."
         breaks "D3DVSD_CONST(96, 1), | 0x00000000, 0x00000000, 0x00000000, 0x3F800000, | D3DVSD_END()"
         keeps "D3DVSD_CONST(95, 1), | 0x00000000, 0x00000000, 0x00000000, 0x3F800000, | D3DVSD_END()";
-    D5 SILENT "A vertex declaration that is used without a shader loads each register with what it stands for there."
-        note "A declaration does not say whether a shader goes with it; texcrd judges it as beside one.";
+    D5 ADVICE "Without a vertex shader each register of a declaration keeps its fixed meaning, and D3DVSDE_NORMAL is D3DVSDT_FLOAT3."
+        breaks "D3DVSD_STREAM(0), | D3DVSD_REG(D3DVSDE_NORMAL, D3DVSDT_FLOAT4), | D3DVSD_END()"
+        keeps "D3DVSD_STREAM(0), | D3DVSD_REG(D3DVSDE_NORMAL, D3DVSDT_FLOAT3), | D3DVSD_END()"
+        note "A declaration does not say whether a shader goes with it; dis --fixed-function judges it as one without.";
 }

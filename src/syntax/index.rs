@@ -91,6 +91,14 @@ impl Parser<'_> {
                     minus = None;
                 }
                 Kind::Minus | Kind::Dash => minus = Some(self.bump()),
+                _ if self.index_goes_on() => {
+                    let message = format!("{} stands where `+` or `]` should", self.quoted(next));
+                    let help = "an index is a sum of whole numbers and at most one a0.x";
+                    self.error(&rules::INDEX, self.span_of(open, next), message, help);
+                    operand.damaged = true;
+                    self.skip_index();
+                    return;
+                }
                 _ => {
                     let message = "this index has no `]`";
                     let help = "write `]` behind the index";
@@ -121,6 +129,15 @@ impl Parser<'_> {
             self.report(Diagnostic::error(&rules::INDEX, span, message));
             operand.damaged = true;
         }
+    }
+
+    /// Whether a `]` stands near in this line, in front of the next operand.
+    fn index_goes_on(&self) -> bool {
+        const NEAR: usize = 16;
+        (self.at..self.at + NEAR)
+            .map(|at| self.token(at))
+            .take_while(|t| !t.first && !matches!(t.kind, Kind::Comma | Kind::Open | Kind::End))
+            .any(|t| t.kind == Kind::Close)
     }
 
     /// Behind the `]`, if the line has one.

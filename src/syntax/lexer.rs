@@ -267,6 +267,8 @@ fn space(input: &[u8]) -> IResult<&[u8], ()> {
         alt((
             take_while1(|b: u8| matches!(b, b' ' | b'\t' | b'\r' | 0x0B | 0x0C | 0x1A)),
             tag(&b"\xC2\xA0"[..]),
+            // The same in the code pages of the time.
+            tag(&b"\xA0"[..]),
         )),
     )
     .parse(input)

@@ -91,6 +91,10 @@ impl Parser<'_> {
         let operand_follows =
             self.begins_operand(self.at + 1) && self.token(self.at + 1).kind == Kind::Word;
         let alone = next.first;
+        // Disassemblers leave such lines behind.
+        if word.eq_ignore_ascii_case("debug") && !co_issue {
+            return self.skip_line();
+        }
         if self.lost_space(token, co_issue) {
             return;
         }

@@ -23,12 +23,12 @@ pub(super) fn slots(listing: &Listing) -> [Slots; 2] {
     sums
 }
 
-fn phase_index(group: &[Line]) -> usize {
+pub(super) fn phase_index(group: &[Line]) -> usize {
     group.first().map_or(1, |line| line.phase as usize)
 }
 
 /// Slots of what runs at once: both halves of a pair share theirs.
-fn cost(group: &[Line]) -> Slots {
+pub(super) fn cost(group: &[Line]) -> Slots {
     let forms = group.iter().filter_map(|line| line.form);
     forms.fold(Slots::default(), |cost, form| Slots {
         arithmetic: cost.arithmetic.max(form.arithmetic_slots),

@@ -201,7 +201,7 @@ fn source_modifier(
 }
 
 fn divides(modifier: SourceModifier) -> bool {
-    matches!(modifier, SourceModifier::Dz | SourceModifier::Dw)
+    modifier.row().divides.is_some()
 }
 
 /// What a texture instruction takes instead.

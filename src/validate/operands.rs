@@ -80,7 +80,7 @@ fn register_exists(
     if !report.misses(register) {
         return false;
     }
-    if register.file == RegisterFile::Addr && version == Version::Vs10 {
+    if register.file == RegisterFile::Addr && register.index == 0 && version == Version::Vs10 {
         report.breach(
             Code::O4,
             span,
@@ -150,8 +150,12 @@ fn check_destination(
         return;
     }
     let opcode = line.instruction.opcode;
-    // Of an a0 that no version could have here O5 tells more than O4.
-    let misplaced = register.file == RegisterFile::Addr && opcode != Opcode::Mov;
+    // Of an a0 that no version could have here O5 tells more than O4, and of a constant O2 more than O26.
+    let misplaced = match register.file {
+        RegisterFile::Addr => opcode != Opcode::Mov,
+        RegisterFile::Const => true,
+        _ => false,
+    };
     if !misplaced && !register_exists(listing, register, span, Code::O1, report) {
         return;
     }
@@ -232,7 +236,8 @@ fn check_source(
     {
         return;
     }
-    if is_condition_of_cnd(listing.version, line, i) {
+    // Of a register that cannot be read at all O3 tells more than O15, which a dialect may take.
+    if is_condition_of_cnd(listing.version, line, i) && register.file != RegisterFile::Addr {
         return; // O15 says what stands there.
     }
     if !shape.files.contains(register.file) {
@@ -419,7 +424,9 @@ fn condition(listing: &Listing, line: &Line, report: &mut Report) {
     let is_r0_a = source.register == Register::new(RegisterFile::Temp, 0)
         && source.swizzle == Swizzle::replicate(3)
         && source.modifier == SourceModifier::None;
-    if is_condition_of_cnd(listing.version, line, 0) && !is_r0_a {
+    // O3 refuses a0.
+    let readable = source.register.file != RegisterFile::Addr;
+    if is_condition_of_cnd(listing.version, line, 0) && readable && !is_r0_a {
         report.breach(
             Code::O15,
             source.span,

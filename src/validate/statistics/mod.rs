@@ -8,6 +8,7 @@ pub use stages::{Coordinates, Stage};
 
 use super::budgets;
 use super::listing::{Line, Listing};
+use crate::diagnostic::Span;
 use crate::isa::{RegisterFile, Version};
 use crate::program::Program;
 use std::collections::BTreeSet;
@@ -109,6 +110,46 @@ pub fn statistics(program: &Program) -> Statistics {
     }
 }
 
+/// The slots of what runs at once: an instruction or a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SlotUse {
+    /// The last instruction of it.
+    pub span: Span,
+    /// The number of its phase in [`Statistics::phases`].
+    pub phase: usize,
+    /// What it takes, as [`PhaseSlots`] counts.
+    pub arithmetic: u32,
+    /// What it takes of the texture slots.
+    pub texture: u32,
+    /// The arithmetic slots of the phase up to here, its own included.
+    pub arithmetic_so_far: u32,
+    /// The texture slots of the phase up to here.
+    pub texture_so_far: u32,
+}
+
+/// The slots of a program, one instruction or pair after the other.
+pub fn slots(program: &Program) -> Vec<SlotUse> {
+    let listing = Listing::new(program, &[]);
+    let mut so_far = [budgets::Slots::default(); 2];
+    let mut all = Vec::new();
+    for group in listing.groups() {
+        let Some(last) = group.last() else { continue };
+        let (cost, at) = (budgets::cost(group), budgets::phase_index(group));
+        let sum = &mut so_far[at];
+        sum.arithmetic = sum.arithmetic.saturating_add(cost.arithmetic);
+        sum.texture = sum.texture.saturating_add(cost.texture);
+        all.push(SlotUse {
+            span: last.instruction.span,
+            phase: if listing.has_phase { at } else { 0 },
+            arithmetic: cost.arithmetic,
+            texture: cost.texture,
+            arithmetic_so_far: sum.arithmetic,
+            texture_so_far: sum.texture,
+        });
+    }
+    all
+}
+
 /// The registers that instructions and definitions name, by file and number.
 fn named_registers(listing: &Listing) -> BTreeSet<(RegisterFile, u32)> {
     let mut named = BTreeSet::new();
@@ -129,4 +170,31 @@ fn named_registers(listing: &Listing) -> BTreeSet<(RegisterFile, u32)> {
         }
     }
     named
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::program;
+    use super::*;
+
+    fn told(text: &str) -> Vec<(usize, u32, u32, u32, u32)> {
+        let one = |s: SlotUse| {
+            let so_far = (s.arithmetic_so_far, s.texture_so_far);
+            (s.phase, s.arithmetic, s.texture, so_far.0, so_far.1)
+        };
+        slots(&program(text)).into_iter().map(one).collect()
+    }
+
+    #[test]
+    fn slots_are_counted_by_phase_and_pairs_once() {
+        // The costs are those of the instruction tables: cmp of ps.1.2 takes two, m4x4 four, exp ten.
+        let pixel = told("ps.1.2 tex t0 cmp r0, t0, v0, v1 mov r0.rgb, v0 +mov r0.a, v1");
+        let expected = [(0, 0, 1, 0, 1), (0, 2, 0, 2, 1), (0, 1, 0, 3, 1)];
+        assert_eq!(pixel, expected);
+        let vertex = told("vs.1.1 m4x4 oPos, v0, c0 exp r0, c4.w");
+        assert_eq!(vertex, [(0, 4, 0, 4, 0), (0, 10, 0, 14, 0)]);
+        let phases = told("ps.1.4 texcrd r0.rgb, t0 phase mov r0, c0");
+        let expected = [(0, 0, 1, 0, 1), (0, 0, 0, 0, 1), (1, 1, 0, 1, 0)];
+        assert_eq!(phases, expected);
+    }
 }

@@ -103,7 +103,7 @@ const WORDS: &[(&str, &[&str])] = &[
     ),
     (
         "ps.1.1 | cmp r0, v0, v0, v1",
-        &["ps.1.1 has no cmp", "ps.1.2, ps.1.3 and ps.1.4", "cnd"],
+        &["ps.1.1 has no cmp", "ps.1.2 to ps.1.4", "cnd"],
     ),
     (
         "ps.1.1 | mov r0, v0 | mov r2, v0",

@@ -13,7 +13,7 @@ use crate::program::Program;
 use crate::rules::Example;
 
 /// The program of a listing that can be read.
-fn program(text: &str) -> Program {
+pub(in crate::validate) fn program(text: &str) -> Program {
     let mut map = SourceMap::new();
     let parsed = crate::syntax::parse(map.add("listing", text).unwrap());
     let said: Vec<&str> = parsed
