@@ -8,6 +8,7 @@ mod asm;
 mod baked;
 mod check;
 mod compare;
+mod computing;
 #[cfg(feature = "servers")]
 mod dap;
 mod debug;

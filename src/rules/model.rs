@@ -395,7 +395,7 @@ model! {
     I6 SILENT "A component that a mask or selector leaves out need not have been written."
         note "This allows, so that nothing can break it; I1 speaks of the components that have an effect.";
     I7 ADVICE "A vertex shader reads constants that were set; others are 0."
-        note "Constants are also set beside the shader, so that no listing shows it. eval, which is given them, warns.";
+        note "Constants are also set beside the shader, so that no listing shows it; eval, which is given them, warns.";
     C1 REFUSED "Vertex shaders have no pairs."
         breaks "vs.1.1 | mov oPos, v0 | +{mov} r0, v0"
         keeps "vs.1.1 | mov oPos, v0 | mov r0, v0";

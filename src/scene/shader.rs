@@ -12,7 +12,6 @@ use crate::extract::{self, Text};
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Options, lower};
 use crate::listing::{self, Checked};
-use crate::policy::Dialect;
 use crate::preprocess::{self, Included};
 use crate::program::Program;
 
@@ -56,7 +55,6 @@ pub(crate) type Named = At<Arc<Program>>;
 pub(crate) fn read(
     section: &mut Section<'_>,
     keys: &Keys,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Named> {
@@ -67,14 +65,14 @@ pub(crate) fn read(
     let file = section.at::<String>(keys.file, problems);
     let text = section.at::<String>(keys.text, problems);
     let (span, program) = match (file, text) {
-        (Some(file), None) => (file.span, from_file(&file, dialect, files, problems)?),
+        (Some(file), None) => (file.span, from_file(&file, files, problems)?),
         (None, Some(text)) => {
             // The places in a text are counted from its first line, so it needs a name of its own.
             let name = format!("{}, `{}`", section.title, keys.text);
             let bytes = text.value.into_bytes();
             (
                 text.span,
-                program("", name, bytes, text.span, dialect, files, problems)?,
+                program("", name, bytes, text.span, files, problems)?,
             )
         }
         (Some(_), Some(text)) => {
@@ -98,7 +96,6 @@ pub(crate) fn read(
 
 fn from_file(
     path: &At<String>,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
@@ -106,17 +103,9 @@ fn from_file(
         return known.clone();
     }
     let name = files.resolver.display_name(&path.value);
-    let found = files.read(path, problems).and_then(|bytes| {
-        program(
-            &path.value,
-            name,
-            bytes,
-            path.span,
-            dialect,
-            files,
-            problems,
-        )
-    });
+    let found = files
+        .read(path, problems)
+        .and_then(|bytes| program(&path.value, name, bytes, path.span, files, problems));
     files.programs.insert(path.value.clone(), found.clone());
     found
 }
@@ -149,7 +138,6 @@ fn program(
     name: String,
     bytes: Vec<u8>,
     span: Span,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
@@ -158,7 +146,7 @@ fn program(
         listing,
     };
     let options = listing::Options {
-        dialect,
+        dialect: files.options.dialect,
         preprocess: preprocess::Options {
             definitions: &[],
             resolver: &resolver,

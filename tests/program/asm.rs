@@ -84,6 +84,12 @@ fn rules_are_left_out_on_request() {
         ran.out,
         hex(&[0xFFFF_0101, 1, 0x800F_0000, 0x80E4_0001, 0xFFFF])
     );
+    // A row of a matrix that no register holds is found by the validator alone.
+    let ran = texcrd_with_input(
+        &["asm", "--unchecked", "-", "--hex"],
+        b"vs.1.1\nm3x2 r0, v0, v15\n",
+    );
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
     for (listing, code) in [
         (&b"ps.1.3\nmov r5, r0\n"[..], "O1"),
         (b"ps.1.3\ntex t5\n", "O1"),

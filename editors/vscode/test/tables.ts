@@ -77,8 +77,18 @@ export function versions(): string[] {
   return rows(firstGroups(text, /\brow\(Version::\w+, "([\w.]+)"/g), text, /VERSIONS: \[VersionRow; (\d+)\]/);
 }
 
-/** Every dialect by its name on the command line. */
+/** Every value of a choice of `policy/mod.rs` by its name on the command line, in the order of the declaration. */
+function choices(type: string): string[] {
+  const block = new RegExp(`\\n    ${type} "[^"]*";\\n([^}]*)\\n}`).exec(read('policy/mod.rs'))?.[1] ?? '';
+  return rows(firstGroups(block, /^ {4}\w+ "(\w+)" "/gm), `[${block.split('\n').length}]`, /\[(\d+)\]/);
+}
+
+/** Every dialect. */
 export function dialects(): string[] {
-  const text = read('policy.rs');
-  return rows(firstGroups(text, /\(Dialect::\w+, "(\w+)"\)/g), text, /DIALECTS: \[\(Dialect, &str\); (\d+)\]/);
+  return choices('Dialect');
+}
+
+/** Every hardware model. */
+export function models(): string[] {
+  return choices('Model');
 }

@@ -1,7 +1,8 @@
 //! Cases, and ways to spoil them: what a case tests is what it notices.
 
 use crate::suite::cases;
-use std::sync::{Arc, LazyLock};
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex};
 use texcrd::case::{Case, Invocation, judge, observe};
 use texcrd::exec::{Environment, Lanes, Machine, Observer, Stage, bind_constants};
 use texcrd::isa::{Opcode, ResultModifier, ShaderKind, Version, WriteMask};
@@ -13,7 +14,11 @@ use texcrd::semantics::saturate;
 
 /// All cases of the suite.
 pub(super) static PROBES: LazyLock<Vec<Probe>> = LazyLock::new(|| {
-    let probe = |(path, case)| Probe { path, case };
+    let probe = |(path, case)| Probe {
+        path,
+        case,
+        matters: Mutex::default(),
+    };
     cases().into_iter().map(probe).collect()
 });
 
@@ -24,6 +29,8 @@ const POISONS: [f32; 2] = [77.25, -77.25];
 pub(super) struct Probe {
     pub(super) path: String,
     pub(super) case: Case,
+    /// What [`Line::matters`] has found out, by kind of listing, instruction and component.
+    matters: Mutex<HashMap<(ShaderKind, usize, usize), Vec<usize>>>,
 }
 
 /// One instruction of a case.
@@ -221,6 +228,11 @@ impl Line<'_> {
 
     /// The invocations whose expectation depends on what this instruction gives in a component.
     pub(super) fn matters(&self, component: usize) -> Vec<usize> {
+        let key = (self.kind(), self.number, component);
+        let known = || self.probe.matters.lock().expect("no test fails in here");
+        if let Some(found) = known().get(&key) {
+            return found.clone();
+        }
         let mut all: Vec<usize> = POISONS
             .into_iter()
             .flat_map(|poison| {
@@ -232,6 +244,7 @@ impl Line<'_> {
             .collect();
         all.sort_unstable();
         all.dedup();
+        known().insert(key, all.clone());
         all
     }
 

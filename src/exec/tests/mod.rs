@@ -1,5 +1,7 @@
 //! Instructions run on textures whose texels tell where they are, against coordinates worked out by hand.
 
+mod models;
+
 use super::*;
 use crate::diagnostic::SourceMap;
 use crate::kernel::{Options, Projection, Slot, lower};

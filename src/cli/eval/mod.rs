@@ -1,14 +1,19 @@
 //! `eval`: one invocation on the CPU.
 
+mod several;
+
+use super::computing::Several;
 use super::given::{self, Loaded};
 use super::shaders::Reading;
-use super::{Format, Outcome, print, print_json};
+use super::{Failure, Format, Outcome, diagnostics, print, print_json};
 use serde_json::{Map, Value, json};
+use texcrd::debug::Given;
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, Trace, bind_constants};
 use texcrd::isa::{ShaderKind, WriteMask};
-use texcrd::kernel::{Kernel, Slot};
+use texcrd::kernel::{self, Kernel, Slot};
 use texcrd::program::{Instruction, Program};
+use texcrd::validate;
 
 /// Runs a listing once, with values set by hand, and prints its registers.
 ///
@@ -18,6 +23,7 @@ use texcrd::program::{Instruction, Program};
 Examples:
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --set c1=1,0,0,1
   texcrd eval shader.vsh --set v0=1,2,3 --trace
+  texcrd eval shader.psh --set v0=0.5 --trace --model gf3,float    where the two part first
   echo 'ps.1.1 mul r0, v0, c0' | texcrd eval - --set v0=1 --set c0=0.5 --format json")]
 pub(super) struct Arguments {
     /// A listing, or a file with shaders in it; `-` is standard input.
@@ -38,46 +44,58 @@ pub(super) struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     format: Format,
     #[command(flatten)]
+    computing: Several,
+    #[command(flatten)]
     reading: Reading,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let models = arguments.computing.models();
+    let first = models.first().copied().unwrap_or_default();
     let Loaded {
         sources,
         program,
         kernel,
-    } = given::load(&arguments.file, &arguments.reading)?;
+    } = given::load(
+        &arguments.file,
+        &arguments.reading,
+        &arguments.computing.lowering(first),
+    )?;
     let given = given::given(&arguments.set, program.version)?;
-    let mut machine = Machine::<1>::new();
-    for input in given.inputs(&kernel) {
-        let [value, ..] = input.value;
-        machine.load(input.slot, value);
-    }
-    let environment = Environment {
-        constants: bind_constants(&kernel, &given.constants),
-        ..Default::default()
-    };
-    let trace = Trace::record(&mut machine, &kernel, &environment, 0);
-    let run = Run {
+    let set = given.constants.iter().map(|(number, _)| *number);
+    let unset = validate::unset_constants(&program, set);
+    anstream::eprint!("{}", diagnostics::render(&sources, &unset));
+    let listing = Listing {
         sources: &sources,
         program: &program,
-        kernel: &kernel,
-        machine: &machine,
-        trace: &trace,
     };
-    match arguments.format {
-        Format::Json => print_json(&run.json(arguments.trace)),
-        Format::Text => print(&run.text(arguments.trace)),
+    let mut runs = vec![Run::new(listing, kernel, &given)];
+    for model in models.into_iter().skip(1) {
+        let kernel = kernel::lower(&program, &arguments.computing.lowering(model))
+            .map_err(|e| Failure::Input(e.to_string()))?;
+        runs.push(Run::new(listing, kernel, &given));
     }
+    match (arguments.format, runs.as_slice()) {
+        (Format::Json, [run]) => print_json(&run.json(arguments.trace)),
+        (Format::Text, [run]) => print(&run.text(arguments.trace)),
+        (Format::Json, runs) => print_json(&several::json(runs, arguments.trace)),
+        (Format::Text, runs) => print(&several::text(runs, arguments.trace)),
+    }
+}
+
+/// What is run, as it was written.
+#[derive(Clone, Copy)]
+struct Listing<'a> {
+    sources: &'a SourceMap,
+    program: &'a Program,
 }
 
 /// A finished run, ready to be told.
 struct Run<'a> {
-    sources: &'a SourceMap,
-    program: &'a Program,
-    kernel: &'a Kernel,
-    machine: &'a Machine<1>,
-    trace: &'a Trace,
+    listing: Listing<'a>,
+    kernel: Kernel,
+    machine: Machine<1>,
+    trace: Trace,
 }
 
 /// What one instruction wrote, one entry a register.
@@ -87,7 +105,26 @@ struct Written<'a> {
     registers: Vec<(Slot, WriteMask, [f32; 4])>,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    fn new(listing: Listing<'a>, kernel: Kernel, given: &Given) -> Self {
+        let mut machine = Machine::<1>::new();
+        for input in given.inputs(&kernel) {
+            let [value, ..] = input.value;
+            machine.load(input.slot, value);
+        }
+        let environment = Environment {
+            constants: bind_constants(&kernel, &given.constants),
+            ..Default::default()
+        };
+        let trace = Trace::record(&mut machine, &kernel, &environment, 0);
+        Self {
+            listing,
+            kernel,
+            machine,
+            trace,
+        }
+    }
+
     fn kind(&self) -> ShaderKind {
         self.kernel.version.kind()
     }
@@ -109,7 +146,8 @@ impl Run<'_> {
 
     /// Instruction by instruction, those included that wrote nothing.
     fn steps(&self) -> impl Iterator<Item = Written<'_>> {
-        self.program
+        self.listing
+            .program
             .instructions()
             .enumerate()
             .map(|(number, instruction)| {
@@ -126,6 +164,7 @@ impl Run<'_> {
                     }
                 }
                 let line = self
+                    .listing
                     .sources
                     .locate(instruction.span)
                     .map_or(0, |at| at.line);
@@ -141,15 +180,10 @@ impl Run<'_> {
         let mut out = String::new();
         if with_trace {
             for step in self.steps() {
-                let text = step.instruction.text(self.sources);
+                let text = step.instruction.text(self.listing.sources);
                 out.push_str(&format!("{:>4}  {text}\n", step.line));
                 for (slot, mask, value) in &step.registers {
-                    let components = if *slot == Slot::DEPTH {
-                        String::new()
-                    } else {
-                        self.mask(*mask)
-                    };
-                    let name = format!("{}{components}", slot.name(self.kind()));
+                    let name = self.name(*slot, *mask);
                     out.push_str(&format!("      {name:<12} = {}\n", numbers(*value, *mask)));
                 }
             }
@@ -161,19 +195,26 @@ impl Run<'_> {
         if let Some(depth) = self.depth() {
             out.push_str(&format!("depth = {depth}\n"));
         }
-        if let Some(instruction) = self
-            .trace
-            .killed_by
-            .and_then(|i| self.program.instructions().nth(i))
-        {
-            let text = instruction.text(self.sources);
+        if let Some(text) = self.killed_by() {
             out.push_str(&format!("killed by {text}\n"));
         }
         out
     }
 
-    fn mask(&self, mask: WriteMask) -> String {
-        mask.text(self.program.letters())
+    /// The instruction that discarded the pixel.
+    fn killed_by(&self) -> Option<String> {
+        let killed_by = self.trace.killed_by?;
+        let instruction = self.listing.program.instructions().nth(killed_by)?;
+        Some(instruction.text(self.listing.sources))
+    }
+
+    /// A register with the components that were written.
+    fn name(&self, slot: Slot, mask: WriteMask) -> String {
+        let components = match slot {
+            Slot::DEPTH => String::new(),
+            _ => mask.text(self.listing.program.letters()),
+        };
+        slot.name(self.kind()) + &components
     }
 
     fn json(&self, with_trace: bool) -> Value {
@@ -199,7 +240,7 @@ impl Run<'_> {
                         .collect();
                     json!({
                         "line": step.line,
-                        "text": step.instruction.text(self.sources),
+                        "text": step.instruction.text(self.listing.sources),
                         "writes": writes,
                     })
                 })
