@@ -167,8 +167,10 @@ fn accepted(program: &Program, sources: &SourceMap, dialect: Dialect) {
         Ok(words) => comes_back(words, Some(dialect)),
         Err(found) => {
             points_into(sources, found);
-            // An operand relative to a0.x may have any offset, but its token has 11 bits for it.
-            assert!(largest(program) > 2047, "{found:?}");
+            // `lenient` takes shaders of any length. An operand relative to a0.x may have any offset, but its token has
+            // 11 bits for it.
+            let excused = dialect == Dialect::Lenient || largest(program) > 2047;
+            assert!(excused, "{found:?}");
         }
     }
     let kernel = kernel::lower(program, &kernel::Options::default());
