@@ -1,6 +1,14 @@
 //! Runs the shader assembly of Direct3D 8: `vs.1.0`, `vs.1.1` and `ps.1.0` to `ps.1.4`.
 //!
-//! A listing goes through [`listing::check`] to a [`program::Program`], through [`kernel::lower`] to a
+//! [`parse`], [`validate()`], [`assemble`] and [`disassemble`] do what is asked for most, on plain texts and words:
+//!
+//! ```
+//! let tokens = texcrd::assemble("ps.1.1\ntex t0\nmul r0, t0, v0")?;
+//! assert_eq!(texcrd::disassemble(&tokens)?, "ps.1.1\ntex t0\nmul r0, t0, v0\n");
+//! # Ok::<(), texcrd::Report>(())
+//! ```
+//!
+//! The rooms behind them do more. A listing goes through [`listing::check`] to a [`program::Program`], through [`kernel::lower`] to a
 //! [`kernel::Kernel`], and runs in an [`exec::Machine`]. [`scene::Scene`] puts listings, meshes and textures together
 //! and renders them through [`raster`].
 //!
@@ -16,6 +24,7 @@ pub mod diagnostic;
 pub mod exec;
 pub mod explain;
 pub mod extract;
+mod front;
 pub mod generate;
 #[cfg(feature = "gpu")]
 pub mod gpu;
@@ -41,6 +50,8 @@ pub mod syntax;
 pub mod texture;
 pub mod validate;
 pub mod wgsl;
+
+pub use front::{Report, assemble, disassemble, parse, validate};
 
 /// The example of the first page, run as a test.
 #[cfg(doctest)]

@@ -4,12 +4,14 @@ use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, any_error};
 use crate::policy::Dialect;
 use crate::preprocess::{self, Preprocessed, preprocess};
 use crate::program::Program;
+use crate::rules::text as rules;
 use crate::{syntax, validate};
 
 /// What became of a listing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checked {
-    /// The shader, as far as it could be read.
+    /// The shader, as far as it could be read. `None` if there is no telling what it is: its version is not known, or lines
+    /// of it may be macros that are not known.
     pub program: Option<Program>,
     /// Everything that is wrong with it, by position.
     pub diagnostics: Vec<Diagnostic>,
@@ -30,7 +32,8 @@ impl Checked {
 pub struct Options<'a> {
     /// By whose rules it is judged.
     pub dialect: Dialect,
-    /// Whether only the text is judged, and not the rules of the shader model.
+    /// Whether only that is judged which the assembler itself refused: the text, and what [`validate::assembles`] says
+    /// of it; not the other rules of the shader model. Of tokens nothing is judged then.
     pub unchecked: bool,
     /// Whether names may have been defined that are not known here.
     pub names_missing: bool,
@@ -87,8 +90,12 @@ fn check_preprocessed(
             diagnostics: Vec::new(),
         },
     };
-    if !preprocessed.diagnostics.is_empty() {
-        checked.diagnostics.splice(0..0, preprocessed.diagnostics);
+    let mut found = preprocessed.diagnostics;
+    if let (true, Some(program)) = (options.unchecked, &checked.program) {
+        found.extend(validate::assembles(program));
+    }
+    if !found.is_empty() {
+        checked.diagnostics.splice(0..0, found);
         checked.diagnostics.sort_by_key(|d| sources.written(d.span));
     }
     checked
@@ -115,9 +122,22 @@ pub(crate) fn check_around(file: &SourceFile, options: &Options<'_>, lost: &[Spa
             diagnostics.extend(validate::validate_around(program, options.dialect, &unread));
         }
     }
+    // Otherwise it has been said what is wrong with them.
+    let unknown = match any_error(&diagnostics) {
+        true => &[][..],
+        false => &parsed.damaged,
+    };
+    diagnostics.extend(unknown.iter().take(MOST_UNKNOWN).map(|damage| {
+        let message = "this may be a macro of a file that could not be read";
+        let report = Diagnostic::warning(&rules::MAYBE_MACRO, damage.span, message);
+        report.with_help("name the folder of the file with -I; without it there is no whole shader")
+    }));
     diagnostics.sort_by_key(|d| (d.span.start, d.span.end));
     Checked {
-        program: parsed.program,
+        program: parsed.program.filter(|_| unknown.is_empty()),
         diagnostics,
     }
 }
+
+/// Of how many lines it is said that they may be macros.
+const MOST_UNKNOWN: usize = 100;

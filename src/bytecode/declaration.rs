@@ -199,11 +199,23 @@ impl Declaration {
 
     /// Reads a declaration from its tokens, with everything that is wrong with them. The spans of both count tokens.
     pub fn decode(words: &[u32]) -> (Self, Vec<Diagnostic>) {
+        Self::read(words, true)
+    }
+
+    /// As [`Self::decode`], of a piece, which may lack its end: what the assembler of Direct3D 8 gave back for constants.
+    pub fn decode_fragment(words: &[u32]) -> (Self, Vec<Diagnostic>) {
+        Self::read(words, false)
+    }
+
+    fn read(words: &[u32], whole: bool) -> (Self, Vec<Diagnostic>) {
         let mut declaration = Self::default();
         let mut reports = Reports::default();
         let mut at = 0;
         while !reports.full() {
             let Some(&word) = words.get(at).filter(|_| at < MOST_TOKENS) else {
+                if !whole && at == words.len() {
+                    break;
+                }
                 let message = "the declaration ends without D3DVSD_END, 0xFFFFFFFF";
                 reports.error(&model::D1, at, message, "");
                 break;
@@ -260,6 +272,16 @@ impl Declaration {
     /// # Errors
     /// Elements whose numbers do not fit their fields.
     pub fn encode(&self) -> Result<Vec<u32>, Vec<Diagnostic>> {
+        let mut words = self.encode_fragment()?;
+        words.extend(macros::END.token(&[]));
+        Ok(words)
+    }
+
+    /// As [`Self::encode`], without the token that ends it: to stand within another declaration.
+    ///
+    /// # Errors
+    /// As [`Self::encode`].
+    pub fn encode_fragment(&self) -> Result<Vec<u32>, Vec<Diagnostic>> {
         let mut words = Vec::new();
         let mut faults = Vec::new();
         for element in &self.elements {
@@ -280,7 +302,6 @@ impl Declaration {
                 }
             }
         }
-        words.extend(macros::END.token(&[]));
         match faults.is_empty() {
             true => Ok(words),
             false => Err(faults),
@@ -289,22 +310,40 @@ impl Declaration {
 
     /// What a device of Direct3D 8 refuses of it beside a vertex shader, with the spans of the elements.
     pub fn check(&self) -> Vec<Diagnostic> {
+        self.judge(|element| match element.kind {
+            ElementKind::Reg { register, .. } if register > 15 => {
+                let message = format!("a vertex shader has no register v{register}");
+                Some(Diagnostic::error(&model::D2, element.span, message))
+            }
+            _ => None,
+        })
+    }
+
+    /// What is wrong with it where there is no vertex shader: the fixed-function pipeline takes each register for what
+    /// its `D3DVSDE_` name says.
+    pub fn check_fixed_function(&self) -> Vec<Diagnostic> {
+        self.judge(|element| {
+            let (message, help) = misuse(&element.kind)?;
+            let report = Diagnostic::warning(&model::D5, element.span, message);
+            Some(report.with_help(help))
+        })
+    }
+
+    /// The rules that hold in any case, with what else is said of an element.
+    fn judge(&self, other: impl Fn(&Element) -> Option<Diagnostic>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
         let mut loaded = [false; 32];
-        for Element { kind, span } in &self.elements {
+        for element in &self.elements {
+            let Element { kind, span } = element;
+            let odd = other(element);
             match kind {
                 ElementKind::Reg { register, .. } => {
-                    let register = usize::from(*register);
-                    if register > 15 {
-                        let message = format!("a vertex shader has no register v{register}");
-                        found.push(Diagnostic::error(&model::D2, *span, message));
-                    } else if loaded.get(register) == Some(&true) {
+                    let loaded = loaded.get_mut(usize::from(*register));
+                    let twice = loaded.is_some_and(|loaded| std::mem::replace(loaded, true));
+                    if twice && odd.is_none() {
                         let message = format!("v{register} is loaded a second time");
                         let report = Diagnostic::warning(&model::D3, *span, message);
                         found.push(report.with_help("the last one wins"));
-                    }
-                    if let Some(loaded) = loaded.get_mut(register) {
-                        *loaded = true;
                     }
                 }
                 ElementKind::Const { address, values } => {
@@ -319,6 +358,7 @@ impl Declaration {
                 }
                 _ => {}
             }
+            found.extend(odd);
         }
         found
     }
@@ -326,6 +366,14 @@ impl Declaration {
     /// The declaration as it stands in a C source, one element a line, the end included: what [`super::read`] takes.
     /// Constants are written by their bits, with the numbers behind them in a comment.
     pub fn print(&self) -> String {
+        let mut text = self.print_fragment();
+        text += &macros::END.text(&[]);
+        text.push('\n');
+        text
+    }
+
+    /// As [`Self::print`], without the end: to stand within another declaration.
+    pub fn print_fragment(&self) -> String {
         let mut text = String::new();
         for Element { kind, .. } in &self.elements {
             let (of, arguments) = kind.head();
@@ -346,8 +394,51 @@ impl Declaration {
                 text.push('\n');
             }
         }
-        text += &macros::END.text(&[]);
-        text.push('\n');
         text
+    }
+}
+
+/// The registers that the fixed-function pipeline takes for positions, for normals, and for texture coordinates.
+const POSITIONS: [u8; 2] = [0, 15];
+const NORMALS: [u8; 2] = [3, 16];
+const COORDINATES: std::ops::RangeInclusive<u8> = 7..=14;
+
+/// What the fixed-function pipeline could not do with an element, and what stands there instead.
+fn misuse(kind: &ElementKind) -> Option<(String, &'static str)> {
+    let named = |register: u8| {
+        macros::meaning(register).map_or_else(|| format!("register {register}"), str::to_string)
+    };
+    let [normal, second_normal] = NORMALS;
+    match *kind {
+        ElementKind::Reg { register, data } => match register {
+            _ if register == normal && data != DataType::Float3 => Some((
+                format!("{} is loaded as {}", named(register), data.name()),
+                "the fixed-function pipeline takes normals as D3DVSDT_FLOAT3",
+            )),
+            _ if register == second_normal => Some((
+                format!("{} is loaded from a stream", named(register)),
+                "only the tessellator makes it",
+            )),
+            _ if macros::meaning(register).is_none() => Some((
+                format!("register {register} has no fixed meaning"),
+                "D3DVSDE_POSITION to D3DVSDE_POSITION2, 0 to 15, have one",
+            )),
+            _ => None,
+        },
+        ElementKind::TessNormal { from, to } => {
+            if !POSITIONS.contains(&from) {
+                let message = format!("normals are made of {}", named(from));
+                return Some((message, "they are made of positions"));
+            }
+            let message = format!("normals go to {}", named(to));
+            let fits = NORMALS.contains(&to);
+            (!fits).then_some((message, "normals are D3DVSDE_NORMAL and D3DVSDE_NORMAL2"))
+        }
+        ElementKind::TessUv(register) => {
+            let message = format!("surface parameters go to {}", named(register));
+            let fits = COORDINATES.contains(&register);
+            (!fits).then_some((message, "they are D3DVSDE_TEXCOORD0 to D3DVSDE_TEXCOORD7"))
+        }
+        _ => None,
     }
 }

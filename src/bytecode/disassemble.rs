@@ -1,6 +1,6 @@
 //! Streams to listings.
 
-use super::{Declaration, Stream, StreamKind, decode};
+use super::{Declaration, Stream, StreamKind, decode, put_constants};
 use crate::diagnostic::{Diagnostic, SourceMap, TooLarge, any_error};
 use crate::program::Program;
 use crate::syntax;
@@ -20,12 +20,22 @@ pub struct Disassembly {
 /// Writes the listing of a stream and adds it to the sources, so that what is said of its program can point into it:
 /// with [`crate::listing::check`], say, on the last of them.
 ///
+/// `constants`: the declaration that a vertex shader is used with, whose `D3DVSD_CONST` elements become `def`s; see
+/// [`put_constants`].
+///
 /// # Errors
 /// [`TooLarge`] if the sources cannot take the listing.
-pub fn disassemble(stream: &Stream, sources: &mut SourceMap) -> Result<Disassembly, TooLarge> {
+pub fn disassemble(
+    stream: &Stream,
+    constants: Option<&Declaration>,
+    sources: &mut SourceMap,
+) -> Result<Disassembly, TooLarge> {
     let (text, reports) = match stream.kind {
         StreamKind::Shader => {
-            let decoded = decode(&stream.words);
+            let mut decoded = decode(&stream.words);
+            if let (Some(program), Some(constants)) = (&mut decoded.program, constants) {
+                put_constants(program, constants);
+            }
             let text = decoded.program.as_ref().map(syntax::print);
             (text, decoded.diagnostics)
         }
@@ -34,13 +44,7 @@ pub fn disassemble(stream: &Stream, sources: &mut SourceMap) -> Result<Disassemb
             (Some(declaration.print()), reports)
         }
     };
-    let mut diagnostics = stream.placed(reports);
-    // What follows from words that could not be read is not told again.
-    match &stream.fault {
-        Some(fault) if fault.rule.id == super::rules::TEXT.id => diagnostics = vec![fault.clone()],
-        Some(fault) if !any_error(&diagnostics) => diagnostics.push(fault.clone()),
-        _ => {}
-    }
+    let diagnostics = stream.with_fault(reports);
     let listing = text.filter(|_| !any_error(&diagnostics));
     let mut program = None;
     if let Some(text) = listing

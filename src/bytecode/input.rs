@@ -3,8 +3,10 @@
 use super::literal::{self, Beginning, Words};
 use super::rules;
 use super::{Declaration, HEX_LINE, MOST_TOKENS, to_hex};
-use crate::diagnostic::{Diagnostic, SourceMap, Span, TooLarge};
+use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};
 use crate::isa::Version;
+use crate::preprocess::scan::without_nul;
+use crate::syntax;
 
 /// How tokens are written in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,8 +56,7 @@ pub struct Input {
 
 /// Says how tokens are written in a file; `None` if it holds none: a listing, or something else.
 pub fn recognize(bytes: &[u8]) -> Option<Form> {
-    // Text in UTF-16 is no stream.
-    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+    if syntax::is_utf16(bytes) {
         return None;
     }
     if is_binary(bytes) {
@@ -76,11 +77,7 @@ fn is_binary(bytes: &[u8]) -> bool {
     let version = bytes
         .first_chunk()
         .is_some_and(|b| is_version(u32::from_le_bytes(*b)));
-    let end = bytes
-        .iter()
-        .rposition(|b| *b != 0)
-        .map_or(0, |last| last + 1);
-    let text = bytes.get(..end).unwrap_or(bytes);
+    let text = without_nul(bytes);
     version || text.contains(&0) || (text.is_empty() && !bytes.is_empty())
 }
 
@@ -133,28 +130,46 @@ pub fn read(sources: &mut SourceMap, name: &str, bytes: &[u8]) -> Result<Option<
 
 fn binary(sources: &mut SourceMap, name: &str, bytes: &[u8]) -> Result<Stream, TooLarge> {
     let (chunks, extra) = bytes.as_chunks::<4>();
-    // One more than a stream may have, so that it is seen to be too long.
-    let chunks = chunks.get(..MOST_TOKENS + 1).unwrap_or(chunks);
+    let chunks = chunks.get(..READ_TOKENS).unwrap_or(chunks);
     let words: Vec<u32> = chunks.iter().map(|c| u32::from_le_bytes(*c)).collect();
-    let file = sources.add(name, to_hex(&words))?.span();
-    let line = |at: usize| {
-        let start = file.start + (at * HEX_LINE) as u32;
-        Span::new(start, start + HEX_LINE as u32 - 1)
-    };
-    let spans = (0..words.len()).map(line).collect();
-    let fault = (!extra.is_empty()).then(|| {
+    let mut stream = Stream::of_words(sources, name, &words)?;
+    if !extra.is_empty() {
         let s = if extra.len() == 1 { "" } else { "s" };
         let message = format!(
             "the file has {} byte{s} behind its last whole token",
             extra.len()
         );
         let help = "it may be cut short, or was written as text, which changes line ends";
-        Diagnostic::error(&rules::BYTES, file.at_end(), message).with_help(help)
-    });
-    Ok(Stream::of(None, Words { words, spans }, fault))
+        let end = sources
+            .files()
+            .last()
+            .map_or(Span::default(), SourceFile::span);
+        stream.fault =
+            Some(Diagnostic::error(&rules::BYTES, end.at_end(), message).with_help(help));
+    }
+    Ok(stream)
 }
 
+/// How many tokens of a stream are looked at: one more than it may have, so that it is seen to be too long.
+const READ_TOKENS: usize = MOST_TOKENS + 1;
+
 impl Stream {
+    /// The stream of these words. A text is added to the sources, so that diagnostics can point into it: one token a line, in
+    /// hexadecimal digits. Whether it is a shader or a vertex declaration is told by its first token.
+    ///
+    /// # Errors
+    /// [`TooLarge`] if the sources are full. Of a stream that is longer than [`MOST_TOKENS`] only the beginning is kept.
+    pub fn of_words(sources: &mut SourceMap, name: &str, words: &[u32]) -> Result<Self, TooLarge> {
+        let words = words.get(..READ_TOKENS).unwrap_or(words).to_vec();
+        let file = sources.add(name, to_hex(&words))?.span();
+        let line = |at: usize| {
+            let start = file.start + (at * HEX_LINE) as u32;
+            Span::new(start, start + HEX_LINE as u32 - 1)
+        };
+        let spans = (0..words.len()).map(line).collect();
+        Ok(Self::of(None, Words { words, spans }, None))
+    }
+
     fn of(name: Option<String>, words: Words, fault: Option<Diagnostic>) -> Self {
         let Words { words, spans } = words;
         let known = words.first().copied().and_then(Version::from_token);
@@ -195,5 +210,23 @@ impl Stream {
             diagnostic
         };
         diagnostics.into_iter().map(place).collect()
+    }
+
+    /// What is said of its tokens, in its places, with what could not be read as tokens.
+    pub(super) fn with_fault(&self, reports: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        let mut diagnostics = self.placed(reports);
+        match &self.fault {
+            // What follows from words that could not be read is not told again.
+            Some(fault) if fault.rule.id == rules::TEXT.id => diagnostics = vec![fault.clone()],
+            Some(fault) if !any_error(&diagnostics) => diagnostics.push(fault.clone()),
+            _ => {}
+        }
+        diagnostics
+    }
+
+    /// The stream as a vertex declaration, or as a piece of one, with everything that is wrong with it, in its places.
+    pub fn decode_fragment(&self) -> (Declaration, Vec<Diagnostic>) {
+        let (declaration, reports) = Declaration::decode_fragment(&self.words);
+        (declaration, self.with_fault(reports))
     }
 }

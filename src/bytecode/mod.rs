@@ -44,6 +44,7 @@
 //! Of a valid stream, tokens → listing → tokens is the identity. What can be read all the same (bits that were ignored,
 //! tokens behind the end) is a warning; it is lost.
 
+mod constants;
 mod declaration;
 mod decode;
 mod disassemble;
@@ -57,11 +58,14 @@ mod report;
 #[cfg(test)]
 mod tests;
 
+pub use constants::{put_constants, take_constants};
 pub use declaration::{DataType, Declaration, Element, ElementKind};
 pub use decode::{Decoded, decode};
 pub use disassemble::{Disassembly, disassemble};
 pub use encode::encode;
 pub use input::{Form, Input, Stream, StreamKind, read, recognize};
+pub use macros::Macro;
+pub(crate) use macros::register_named;
 
 use crate::rules::tokens as rules;
 

@@ -8,7 +8,6 @@ use crate::exec::STAGES;
 use crate::isa::register::VERTEX_CONSTANTS;
 use crate::isa::{RegisterFile, Version};
 use crate::kernel::{Options, Projection};
-use crate::policy::Dialect;
 use crate::raster::{RenderState, Vertex};
 use crate::scene::draw::numbered;
 use crate::scene::error::{Problems, advice, rules};
@@ -59,7 +58,7 @@ impl super::Case {
         resolver: &dyn Resolver,
         options: &LoadOptions,
     ) -> Result<Self, Box<super::CaseError>> {
-        let loaded = load(name, bytes, resolver, |files, problems| {
+        let loaded = load(name, bytes, resolver, options, |files, problems| {
             let text = utf8(bytes, 0, problems)?;
             let is_json = text.trim_start().starts_with('{')
                 || name
@@ -77,7 +76,7 @@ impl super::Case {
                 parse(bytes, 0, problems)?
             };
             let root = Section::outermost(name, table, problems);
-            case(root, options.dialect, files, problems)
+            case(root, files, problems)
         })?;
         let mut case = loaded.value;
         for (invocation, span) in case.invocations.iter_mut().zip(case.places) {
@@ -129,16 +128,11 @@ struct Draft {
     places: Vec<Span>,
 }
 
-fn case(
-    mut root: Section<'_>,
-    dialect: Dialect,
-    files: &mut Files<'_>,
-    problems: &mut Problems,
-) -> Option<Draft> {
+fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -> Option<Draft> {
     let s = &mut root;
     let name: Option<String> = s.get("name", problems);
-    let vertex = listing(s, &VERTEX, dialect, files, problems);
-    let pixel = listing(s, &PIXEL, dialect, files, problems);
+    let vertex = listing(s, &VERTEX, files, problems);
+    let pixel = listing(s, &PIXEL, files, problems);
     // A listing that is refused is there all the same, for what else the case says.
     let given = |shader: &Given| !matches!(shader, Given::No);
     if !given(&vertex) && !given(&pixel) {
@@ -148,8 +142,9 @@ fn case(
     by_stage(s, "textures", problems, |stage, section, problems| {
         stages[stage].texture = bound(section, files, problems);
     });
+    let weights = files.weights();
     by_stage(s, "samplers", problems, |stage, mut section, problems| {
-        stages[stage].sampler = sampler(&mut section, problems);
+        stages[stage].sampler = sampler(&mut section, weights, problems);
         section.finish(problems);
     });
     let mut projection = [Projection::None; STAGES];
@@ -204,8 +199,11 @@ fn case(
         }
     }
     root.finish(problems);
-    let options = Options { projection };
-    let vertex = vertex.lowered(&Options::default(), problems)?;
+    let options = Options {
+        projection,
+        ..files.lowering()
+    };
+    let vertex = vertex.lowered(&files.lowering(), problems)?;
     let pixel = pixel.lowered(&options, problems)?;
     no_depth(&invocations, &scope, pixel.as_ref(), &places, problems);
     Some(Draft {
@@ -255,7 +253,6 @@ impl Given {
 fn listing(
     s: &mut Section<'_>,
     keys: &Keys,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Given {
@@ -270,7 +267,7 @@ fn listing(
         s.node(keys.file);
         return Given::No;
     }
-    match shader::read(s, keys, dialect, files, problems) {
+    match shader::read(s, keys, files, problems) {
         Some(named) => Given::Yes(named),
         None => Given::Refused,
     }

@@ -5,9 +5,10 @@ use clap::ValueEnum;
 use std::str::FromStr;
 use texcrd::isa::{Opcode, RegisterFile, SourceModifier, Version};
 use texcrd::kernel::{self, Projection};
+use texcrd::policy::Model;
 use texcrd::program::Program;
 use texcrd::raster::{Compare, FogDistance, FogMode};
-use texcrd::texture::{AddressMode, TextureKind};
+use texcrd::texture::{AddressMode, TextureKind, Weights};
 use texcrd::wgsl::{self, Fog, Options, Stage};
 
 /// Options of the command line.
@@ -94,9 +95,8 @@ fn address(text: &str) -> Result<(usize, AddressMode), String> {
 }
 
 impl Baked {
-    /// What belongs to lowering.
-    pub(super) fn lowering(&self) -> kernel::Options {
-        let mut options = kernel::Options::default();
+    /// These options with what is baked into kernels.
+    pub(super) fn lowering(&self, mut options: kernel::Options) -> kernel::Options {
         for stage in &self.projected {
             if let Some(place) = options.projection.get_mut(*stage) {
                 *place = Projection::Fourth;
@@ -175,7 +175,7 @@ impl Baked {
     }
 
     /// What belongs to the translation.
-    pub(super) fn options(&self, pixel: Option<&Program>) -> Options {
+    pub(super) fn options(&self, pixel: Option<&Program>, model: Model) -> Options {
         let mut options = Options {
             fog: self.fog.map(|table| Fog {
                 table,
@@ -209,6 +209,9 @@ impl Baked {
         for (number, stage) in options.stages.iter_mut().enumerate() {
             stage.seamless = self.seamless.contains(&number);
             stage.lod_bias = self.lod_bias.contains(&number);
+            if model.has_coarse_filters() {
+                stage.weights = Weights::EightBits;
+            }
             let mut modes = self.addresses.iter().filter(|(of, _)| *of == number);
             if let Some((_, mode)) = modes.next_back() {
                 stage.address = [*mode; 3];

@@ -1,14 +1,12 @@
 //! `check`: parse, validate, repair.
 
 use super::shaders::{Reading, not_one};
-use super::{Failure, Format, Outcome, diagnostics, files, print, print_json};
+use super::{Failure, Format, Outcome, diagnostics, files, print, print_json, stats};
 use serde_json::json;
 use std::path::Path;
 use texcrd::diagnostic::{Diagnostic, SourceMap, any_error};
-use texcrd::isa::ShaderKind;
 use texcrd::program::Program;
-use texcrd::validate::{Statistics, Usage};
-use texcrd::{syntax, validate};
+use texcrd::{extract, validate};
 
 /// Says everything that is wrong with listings.
 ///
@@ -30,7 +28,7 @@ pub(super) struct Arguments {
     /// text is printed.
     #[arg(long)]
     fix: bool,
-    /// Print slots used of slots allowed, registers and stages.
+    /// Print slots used of slots allowed, registers, what texture stages need, full read ports and pairs that could be.
     #[arg(long)]
     stats: bool,
     /// How results are written.
@@ -71,7 +69,7 @@ fn check(arguments: &Arguments, path: &str) -> Result<bool, Failure> {
         for ((name, _), checked) in opened.shaders.iter().zip(&all) {
             if let Some(program) = &checked.program {
                 let name = Some(name.as_str()).filter(|_| several);
-                statistics(arguments, files::name(path), name, program)?;
+                statistics(arguments, &sources, files::name(path), name, program)?;
             }
         }
     }
@@ -80,32 +78,12 @@ fn check(arguments: &Arguments, path: &str) -> Result<bool, Failure> {
 
 /// Repairs a file until nothing certain is left to repair, and writes it back.
 fn fix(arguments: &Arguments, path: &str, original: Vec<u8>) -> Result<Vec<u8>, Failure> {
-    // One repair can uncover the next: a lost semicolon hides what stands in the line.
-    const ROUNDS: usize = 8;
-    let mut bytes = original.clone();
-    let mut repaired = 0;
-    for _ in 0..ROUNDS {
-        let mut sources = SourceMap::new();
-        let opened = arguments
-            .reading
-            .open_bytes(&mut sources, path, bytes.clone())?;
-        let (_, found) = arguments
-            .reading
-            .check_all(&mut sources, path, &opened, true)?;
-        let Some(file) = sources
-            .file_of(opened.file.span.start)
-            .filter(|f| f.bytes() == bytes)
-        else {
-            // Tokens have nothing to repair.
-            break;
-        };
-        let (fixed, count) = syntax::apply_fixes(&sources, file, &found);
-        if count == 0 {
-            break;
-        }
-        repaired += count;
-        bytes = fixed;
-    }
+    let read = |sources: &mut SourceMap, bytes: Vec<u8>| {
+        let opened = arguments.reading.open_bytes(sources, path, bytes)?;
+        let (_, found) = arguments.reading.check_all(sources, path, &opened, true)?;
+        Ok((opened.file, found))
+    };
+    let (bytes, repaired) = extract::repair(original.clone(), read)?;
     // What came from standard input goes to standard output, repaired or not.
     if path == "-" || bytes != original {
         files::write(Path::new(path), &bytes)?;
@@ -119,10 +97,7 @@ fn fix(arguments: &Arguments, path: &str, original: Vec<u8>) -> Result<Vec<u8>, 
 
 fn report(arguments: &Arguments, sources: &SourceMap, name: &str, found: &[Diagnostic]) -> Outcome {
     if arguments.format == Format::Json {
-        for diagnostic in found {
-            print_json(&diagnostics::to_json(sources, diagnostic))?;
-        }
-        return Ok(());
+        return diagnostics::tell(Format::Json, sources, found);
     }
     let mut text = diagnostics::render(sources, found);
     let summary = diagnostics::summary(found);
@@ -141,87 +116,22 @@ fn report(arguments: &Arguments, sources: &SourceMap, name: &str, found: &[Diagn
 /// `shader`: its name, if it is one of several.
 fn statistics(
     arguments: &Arguments,
+    sources: &SourceMap,
     file: &str,
     shader: Option<&str>,
     program: &Program,
 ) -> Outcome {
-    let statistics = validate::statistics(program);
+    let counted = validate::statistics(program);
     match (arguments.format, shader) {
-        (Format::Json, None) => print_json(&json!({ "file": file, "stats": to_json(&statistics) })),
-        (Format::Json, Some(name)) => {
-            print_json(&json!({ "file": file, "shader": name, "stats": to_json(&statistics) }))
+        (Format::Json, None) => {
+            print_json(&json!({ "file": file, "stats": stats::to_json(sources, &counted) }))
         }
-        (Format::Text, None) => print(&to_text(&statistics)),
-        (Format::Text, Some(name)) => print(&format!("{name}: {}", to_text(&statistics))),
-    }
-}
-
-fn to_text(statistics: &Statistics) -> String {
-    let of = |usage: Usage| format!("{} of {}", usage.used, usage.allowed);
-    let list = |numbers: &[u32]| -> String {
-        let numbers: Vec<_> = numbers.iter().map(u32::to_string).collect();
-        numbers.join(", ")
-    };
-    let mut text = format!("{}\n", statistics.version);
-    for (i, phase) in statistics.phases.iter().enumerate() {
-        let label = match (statistics.version.kind(), statistics.phases.len()) {
-            (ShaderKind::Pixel, 2..) => format!("phase {}", i + 1),
-            _ => "slots".to_string(),
-        };
-        let amount = match statistics.version.kind() {
-            ShaderKind::Vertex => of(phase.arithmetic),
-            ShaderKind::Pixel => format!(
-                "{} texture, {} arithmetic",
-                of(phase.texture),
-                of(phase.arithmetic)
-            ),
-        };
-        text.push_str(&format!("  {label:<13} {amount}\n"));
-    }
-    for usage in statistics.files.iter().filter(|f| !f.numbers.is_empty()) {
-        let names: Vec<_> = (usage.numbers.iter())
-            .map(|n| usage.file.register_name(*n))
-            .collect();
-        let prefix = usage.file.row().prefix;
-        text.push_str(&format!(
-            "  {:<13} {} of {}: {}\n",
-            format!("{prefix}#"),
-            names.len(),
-            usage.allowed,
-            names.join(" ")
-        ));
-    }
-    if statistics.relative {
-        text.push_str("  c[a0.x + n]   any constant may be read\n");
-    }
-    for (label, numbers) in [
-        ("stages", &statistics.stages),
-        ("coordinates", &statistics.coordinate_sets),
-    ] {
-        if !numbers.is_empty() {
-            text.push_str(&format!("  {label:<13} {}\n", list(numbers)));
+        (Format::Json, Some(name)) => print_json(
+            &json!({ "file": file, "shader": name, "stats": stats::to_json(sources, &counted) }),
+        ),
+        (Format::Text, None) => print(&stats::to_text(sources, &counted)),
+        (Format::Text, Some(name)) => {
+            print(&format!("{name}: {}", stats::to_text(sources, &counted)))
         }
     }
-    text
-}
-
-fn to_json(statistics: &Statistics) -> serde_json::Value {
-    let of = |usage: Usage| json!({ "used": usage.used, "allowed": usage.allowed });
-    let phases: Vec<_> = (statistics.phases.iter())
-        .map(|p| json!({ "arithmetic": of(p.arithmetic), "texture": of(p.texture) }))
-        .collect();
-    let files: serde_json::Map<_, _> = (statistics.files.iter())
-        .map(|f| {
-            let usage = json!({ "used": f.numbers, "allowed": f.allowed });
-            (f.file.row().prefix.to_string(), usage)
-        })
-        .collect();
-    json!({
-        "version": statistics.version.name(),
-        "phases": phases,
-        "registers": files,
-        "relative": statistics.relative,
-        "stages": statistics.stages,
-        "coordinate_sets": statistics.coordinate_sets,
-    })
 }

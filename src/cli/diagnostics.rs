@@ -1,11 +1,26 @@
 //! Diagnostics for people and as JSON.
 
+use super::{Format, Outcome, print_json};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
 use serde_json::json;
 use texcrd::diagnostic::{Diagnostic, Fix, Severity, SourceMap, Span};
 
 /// How much of a long line is shown around the place that is meant, in bytes on either side.
 const CONTEXT: usize = 100;
+
+/// Says diagnostics beside a result: to people on standard error, to programs as objects on standard output, one a line.
+pub(super) fn tell(format: Format, sources: &SourceMap, diagnostics: &[Diagnostic]) -> Outcome {
+    match format {
+        Format::Text => {
+            anstream::eprint!("{}", render(sources, diagnostics));
+            Ok(())
+        }
+        Format::Json => {
+            let mut all = diagnostics.iter();
+            all.try_for_each(|diagnostic| print_json(&to_json(sources, diagnostic)))
+        }
+    }
+}
 
 /// Diagnostics as a person reads them: each with its place, the line, a caret, the rule and the help.
 pub(super) fn render(sources: &SourceMap, diagnostics: &[Diagnostic]) -> String {

@@ -1,7 +1,7 @@
 //! A listing that is run with values set by hand: what `eval` and `debug` have in common.
 
 use super::shaders::{Reading, not_one};
-use super::{Failure, diagnostics};
+use super::{Failure, computing, diagnostics};
 use texcrd::debug::Given;
 use texcrd::diagnostic::{SourceMap, any_error};
 use texcrd::isa::Version;
@@ -16,7 +16,11 @@ pub(super) struct Loaded {
 }
 
 /// Reads a listing, or the one shader of a file that is meant, and says what is wrong with it.
-pub(super) fn load(path: &str, reading: &Reading) -> Result<Loaded, Failure> {
+pub(super) fn load(
+    path: &str,
+    reading: &Reading,
+    options: &kernel::Options,
+) -> Result<Loaded, Failure> {
     let mut sources = SourceMap::new();
     let opened = reading.open(&mut sources, path)?;
     let (all, found) = reading.check_all(&mut sources, path, &opened, false)?;
@@ -34,8 +38,8 @@ pub(super) fn load(path: &str, reading: &Reading) -> Result<Loaded, Failure> {
             _ => Failure::Rejected,
         });
     };
-    let kernel = kernel::lower(program, &kernel::Options::default())
-        .map_err(|e| Failure::Input(e.to_string()))?;
+    computing::note(options.model, &[program]);
+    let kernel = kernel::lower(program, options).map_err(|e| Failure::Input(e.to_string()))?;
     Ok(Loaded {
         program: program.clone(),
         kernel,

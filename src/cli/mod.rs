@@ -8,6 +8,7 @@ mod asm;
 mod baked;
 mod check;
 mod compare;
+mod computing;
 #[cfg(feature = "servers")]
 mod dap;
 mod debug;
@@ -21,10 +22,13 @@ mod fmt;
 mod fuzz_match;
 mod generate;
 mod given;
+#[cfg(feature = "servers")]
+mod lsp;
 mod reflect;
 mod run;
 mod scene;
 mod shaders;
+mod stats;
 mod test;
 mod translate;
 
@@ -40,6 +44,7 @@ use texcrd::policy::Dialect;
 Examples:
   texcrd run asm/stained_glass/scene.toml -o stained_glass.png
   texcrd check --stats shader.psh
+  texcrd explain lrp
   texcrd translate shader.vsh shader.psh -o shader.wgsl
   texcrd compare asm/stained_glass/figure5.toml
   texcrd eval shader.psh --set t0=0.5,0.25,0,1 --trace
@@ -67,6 +72,8 @@ enum Command {
     Fmt(fmt::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
+    #[cfg(feature = "servers")]
+    Lsp(lsp::Arguments),
     Run(run::Arguments),
     Translate(translate::Arguments),
     Test(test::Arguments),
@@ -125,6 +132,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Fmt(arguments) => fmt::run(&arguments),
         Command::FuzzMatch(arguments) => fuzz_match::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
+        #[cfg(feature = "servers")]
+        Command::Lsp(arguments) => lsp::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Translate(arguments) => translate::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

@@ -1,13 +1,16 @@
 //! `run`: a scene to a picture, or to pictures of registers.
 
+use super::computing::Several;
 use super::{Failure, Outcome, dialect, files, scene};
 use clap::ValueEnum;
+use image::RgbaImage;
 use std::path::PathBuf;
 use texcrd::gpu::Renderer;
-use texcrd::policy::Dialect;
-use texcrd::raster::{Look, Target, Tone, View};
+use texcrd::kernel::Slot;
+use texcrd::policy::{Dialect, Model};
+use texcrd::raster::{Look, MarkSet, RegisterPicture, Target, Tone, View};
 use texcrd::scene::{RenderOptions, Scene, Show, ShowExpression};
-use texcrd::sheet::{Dressing, Tile};
+use texcrd::sheet::{self, Dressing, SheetTooLarge, Tile};
 
 /// Who draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -32,7 +35,8 @@ Examples:
   texcrd run asm/stained_glass/scene.toml -o sheet.png --show all
   texcrd run scene.toml -o sheet.png --show r2@12 --show r2@14 --signed
   texcrd run scene.toml -o r2.png --show r2.r@12 --sign --bar
-  texcrd run scene.toml -o gpu.png --show r2@12 --on gpu")]
+  texcrd run scene.toml -o gpu.png --show r2@12 --on gpu
+  texcrd run scene.toml -o models.png --model float,gf3,r200")]
 pub(super) struct Arguments {
     /// The scene file.
     #[arg(value_name = "SCENE")]
@@ -92,6 +96,8 @@ pub(super) struct Arguments {
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
+    #[command(flatten)]
+    computing: Several,
 }
 
 /// Pictures on a contact sheet are at most so wide, unless a size is given.
@@ -137,48 +143,125 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         return Err(Failure::Io("--adapter: only with --on gpu".into()));
     }
     files::can_be_written(&arguments.output)?;
-    let scene = scene::load(&arguments.scene, arguments.dialect)?;
-    let tiles = tiles(arguments, &scene)?;
-    let sheet = arguments.is_sheet(&tiles);
-    let size = (arguments.size).unwrap_or_else(|| match sheet {
-        true => shrunk(scene.size()),
-        false => scene.size(),
-    });
-    Target::check_planes(size, tiles.len())
-        .map_err(|error| Failure::Io(format!("--show: {error}; a smaller --size helps")))?;
-    let options = RenderOptions {
-        size: Some(size),
-        show: Some(Show {
-            draw: arguments.draw.clone(),
-            pictures: tiles.iter().map(|tile| tile.picture).collect(),
-        })
-        .filter(|_| !tiles.is_empty()),
+    let models = arguments.computing.models();
+    let several = models.len() > 1;
+    let mut sheet = Sheet::default();
+    let mut dressing = Dressing {
+        captions: several,
+        bars: false,
     };
-    let dressing = Dressing {
-        captions: sheet,
-        bars: (sheet || arguments.bar) && !arguments.no_bar,
-    };
+    for (number, model) in models.iter().enumerate() {
+        let options = arguments.computing.loading(*model, arguments.dialect);
+        let scene = match number {
+            0 => scene::load(&arguments.scene, &options)?,
+            _ => scene::load_again(&arguments.scene, &options)?,
+        };
+        let tiles = tiles(arguments, &scene)?;
+        let shown = arguments.is_sheet(&tiles);
+        if number == 0 {
+            dressing.captions = several || shown;
+            dressing.bars =
+                !tiles.is_empty() && (dressing.captions || arguments.bar) && !arguments.no_bar;
+            sheet.size = (arguments.size).unwrap_or_else(|| match dressing.captions {
+                true => shrunk(scene.size()),
+                false => scene.size(),
+            });
+            let planes = tiles.len().max(1) * models.len();
+            Target::check_planes(sheet.size, planes).map_err(|error| {
+                let option = if several { "--model" } else { "--show" };
+                Failure::Io(format!("{option}: {error}; a smaller --size helps"))
+            })?;
+        }
+        sheet.draw(arguments, &scene, tiles)?;
+        if several {
+            sheet.name(*model);
+        }
+    }
     let dressed = dressing.captions || dressing.bars;
-    let too_large = |error| Failure::Io(format!("--show: {error}"));
-    let picture = match arguments.on {
-        Path::Cpu => {
-            let drawn = scene::draw_on_cpu(&scene, &arguments.scene, &options)?;
-            match dressed {
-                true => drawn.sheet(&tiles, dressing).map_err(too_large)?,
-                false => drawn.picture().to_image(),
-            }
-        }
-        Path::Gpu => {
-            let device = scene::device(arguments.adapter.as_deref())?;
-            let mut renderer = Renderer::new(&device);
-            let frame = scene::draw_on_gpu(&mut renderer, &scene, &arguments.scene, &options, &[])?;
-            match dressed {
-                true => frame.sheet(&tiles, dressing).map_err(too_large)?,
-                false => frame.picture().clone(),
-            }
-        }
+    let picture = match (dressed, sheet.pictures.first()) {
+        (false, Some(picture)) => picture.clone(),
+        _ => sheet
+            .compose(dressing)
+            .map_err(|error| Failure::Io(format!("the sheet: {error}")))?,
     };
     scene::write_png(&arguments.output, &picture)
+}
+
+/// Pictures and what is said of each.
+#[derive(Default)]
+struct Sheet {
+    size: [u32; 2],
+    tiles: Vec<Tile>,
+    pictures: Vec<RgbaImage>,
+    marks: Vec<MarkSet>,
+    /// How many tiles have been named after their model.
+    named: usize,
+}
+
+impl Sheet {
+    /// Draws a scene: the registers of the tiles, or its picture if there are none.
+    fn draw(&mut self, arguments: &Arguments, scene: &Scene, tiles: Vec<Tile>) -> Outcome {
+        let options = RenderOptions {
+            size: Some(self.size),
+            show: Some(Show {
+                draw: arguments.draw.clone(),
+                pictures: tiles.iter().map(|tile| tile.picture).collect(),
+            })
+            .filter(|_| !tiles.is_empty()),
+        };
+        match arguments.on {
+            Path::Cpu => {
+                let drawn = scene::draw_on_cpu(scene, &arguments.scene, &options)?;
+                let planes = 0..tiles.len().max(1);
+                self.pictures
+                    .extend(planes.map(|plane| drawn.picture().plane(plane)));
+                self.marks.extend(drawn.marks());
+            }
+            Path::Gpu => {
+                let device = scene::device(arguments.adapter.as_deref())?;
+                let mut renderer = Renderer::new(&device);
+                let frame =
+                    scene::draw_on_gpu(&mut renderer, scene, &arguments.scene, &options, &[])?;
+                match tiles.is_empty() {
+                    true => self.pictures.push(frame.picture().clone()),
+                    false => self.pictures.extend(frame.register_pictures().cloned()),
+                }
+                self.marks.extend(frame.marks());
+            }
+        }
+        self.tiles.extend(tiles);
+        // The finished picture is what is left in r0, and has neither bar nor marks.
+        self.tiles.resize_with(self.pictures.len(), || Tile {
+            caption: String::new(),
+            picture: RegisterPicture {
+                slot: Slot::R0,
+                instructions: usize::MAX,
+                look: Look::default(),
+                killed: false,
+            },
+        });
+        self.marks.resize(self.pictures.len(), MarkSet::default());
+        Ok(())
+    }
+
+    /// Names the tiles that came last after the model that they were drawn with.
+    fn name(&mut self, model: Model) {
+        for tile in self.tiles.iter_mut().skip(self.named) {
+            tile.caption = match tile.caption.as_str() {
+                "" => model.to_string(),
+                caption => format!("{model}: {caption}"),
+            };
+        }
+        self.named = self.tiles.len();
+    }
+
+    fn compose(&self, dressing: Dressing) -> Result<RgbaImage, SheetTooLarge> {
+        let picture = |number: usize| match self.pictures.get(number) {
+            Some(picture) => picture.clone(),
+            None => RgbaImage::new(0, 0),
+        };
+        sheet::compose(&self.tiles, self.size, dressing, &self.marks, picture)
+    }
 }
 
 /// A size of the same shape that is at most as wide as pictures on a sheet.

@@ -1,6 +1,6 @@
 //! What commands that draw scenes have in common: reading, progress, writing of pictures.
 
-use super::{Failure, Outcome, diagnostics, files};
+use super::{Failure, Outcome, computing, diagnostics, files};
 use image::RgbaImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -8,7 +8,6 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use texcrd::diagnostic::{Diagnostic, SourceFile};
 use texcrd::gpu::{Device, Frame, GpuError, Renderer};
-use texcrd::policy::Dialect;
 use texcrd::raster::Target;
 use texcrd::scene::{
     DirectoryResolver, LoadOptions, Progress, RenderOptions, Rendering, Scene, TargetPicture,
@@ -44,14 +43,20 @@ pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
 }
 
 /// Reads the scene and says what is wrong with it.
-pub(super) fn load(path: &str, dialect: Dialect) -> Result<Scene, Failure> {
+pub(super) fn load(path: &str, options: &LoadOptions) -> Result<Scene, Failure> {
+    let scene = load_again(path, options)?;
+    warn(&scene);
+    Ok(scene)
+}
+
+/// As [`load`], of a scene whose warnings have been told.
+pub(super) fn load_again(path: &str, options: &LoadOptions) -> Result<Scene, Failure> {
     let bytes = files::read(path)?;
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
     let resolver = DirectoryResolver::new(folder);
-    let options = LoadOptions { dialect };
-    match Scene::load(files::name(path), &bytes, &resolver, &options) {
+    match Scene::load(files::name(path), &bytes, &resolver, options) {
         Ok(scene) => {
-            warn(&scene);
+            computing::note_scene(options.model, &scene);
             Ok(scene)
         }
         Err(error) => {

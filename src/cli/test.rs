@@ -1,5 +1,6 @@
 //! `test`: shader unit tests.
 
+use super::computing::Computing;
 use super::eval::json_number;
 use super::{Failure, Format, Outcome, diagnostics, dialect, files, print, print_json, scene};
 use clap::ValueEnum;
@@ -9,7 +10,7 @@ use std::path::Path;
 use texcrd::case::{Case, CaseError, Invocation, OnGpu, Origin, Verdict, Wrong};
 use texcrd::gpu::{Device, GpuError};
 use texcrd::policy::Dialect;
-use texcrd::scene::{DirectoryResolver, LoadOptions};
+use texcrd::scene::DirectoryResolver;
 
 /// Folders nest at most this deep; deeper ones are probably links that lead in circles.
 const MAX_DEPTH: usize = 32;
@@ -57,6 +58,8 @@ pub(super) struct Arguments {
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
+    #[command(flatten)]
+    computing: Computing,
 }
 
 /// What runs the shaders.
@@ -138,9 +141,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
             }
         };
         let folder = Path::new(path).parent().unwrap_or(Path::new(""));
-        let options = LoadOptions {
-            dialect: arguments.dialect,
-        };
+        let options = arguments.computing.loading(arguments.dialect);
         let resolver = DirectoryResolver::new(folder);
         let loaded = Case::load(files::name(path), &bytes, &resolver, &options);
         let name = loaded.as_ref().map_or("", |case| case.name.as_str());

@@ -1,6 +1,7 @@
 //! `translate`: listings to WGSL and other shading languages.
 
 use super::baked::Baked;
+use super::computing::Computing;
 use super::shaders::{Reading, not_one};
 use super::{Failure, Outcome, diagnostics, files, print, print_json, reflect};
 use std::path::{Path, PathBuf};
@@ -34,6 +35,8 @@ pub(super) struct Arguments {
     /// Print what binds where as JSON instead, or beside the file that `-o` names.
     #[arg(long)]
     reflect: bool,
+    #[command(flatten)]
+    computing: Computing,
     #[command(flatten)]
     baked: Baked,
     #[command(flatten)]
@@ -79,7 +82,10 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     }
     let baked = &arguments.baked;
     baked.fits(vertex.as_ref(), pixel.as_ref())?;
-    let options = baked.options(pixel.as_ref().map(|stage| stage.program));
+    let options = baked.options(
+        pixel.as_ref().map(|stage| stage.program),
+        arguments.computing.model(),
+    );
     let translation =
         translate(vertex, pixel, &options).map_err(|error| Failure::Input(error.to_string()))?;
     if arguments.reflect {
@@ -150,15 +156,17 @@ fn read(
         let summary = diagnostics::summary(&found).unwrap_or_default();
         return Err(Failure::Input(format!("{}: {summary}", files::name(path))));
     }
+    let lowering = arguments.baked.lowering(arguments.computing.lowering());
     let mut lowered = Vec::new();
     for checked in all {
         let Some(program) = checked.program else {
+            anstream::eprint!("{}", diagnostics::render(&sources, &found));
             return Err(Failure::Input(format!(
-                "{}: this is no shader",
+                "{}: this is no whole shader",
                 files::name(path)
             )));
         };
-        let kernel = kernel::lower(&program, &arguments.baked.lowering())
+        let kernel = kernel::lower(&program, &lowering)
             .map_err(|e| Failure::Input(format!("{}: {e}", files::name(path))))?;
         lowered.push((program, kernel));
     }

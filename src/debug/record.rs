@@ -310,7 +310,9 @@ impl Recorder<'_> {
             ..step.result
         });
         std::array::from_fn(|pixel| {
-            let (result, after) = (result[pixel].map(|x| free.apply(x)), change.after[pixel]);
+            let shifted = result[pixel].map(|x| free.apply(x));
+            let result = shifted.map(|x| semantics::held(step.writes, x));
+            let after = change.after[pixel];
             let mut flags = Flags {
                 out_of_range: reads.iter().any(|read| {
                     matches!(read.operand.place, Place::Relative(_))
@@ -324,7 +326,10 @@ impl Recorder<'_> {
                 let saturated = step.result.saturate && differs(result[c], after[c]);
                 if saturated && asked {
                     flags.saturated = flags.saturated.or(this);
-                } else if saturated || clamps(step, reads, pixel) {
+                } else if saturated
+                    || shifted[c].abs() > step.writes.most()
+                    || clamps(step, reads, pixel)
+                {
                     flags.clamped = flags.clamped.or(this);
                 }
                 let among = |is: fn(f32) -> bool| {

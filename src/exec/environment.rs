@@ -3,6 +3,7 @@
 use crate::isa::register::VERTEX_CONSTANTS;
 use crate::isa::{RegisterFile, ShaderKind};
 use crate::kernel::{Kernel, MOST_VERTEX_CONSTANTS};
+use crate::policy::DefLifetime;
 use crate::semantics::{self, BumpState};
 use crate::texture::{Sampler, Texture};
 
@@ -32,7 +33,8 @@ pub struct Stage<'a> {
 /// The constant registers of a kernel when it runs.
 ///
 /// Direct3D 8 loads what a shader defines itself when the shader is set, and what a program sets comes after that:
-/// `set` replaces definitions. What nobody sets is (0, 0, 0, 0). Pixel shader constants are clamped to −1…1.
+/// `set` replaces definitions, unless the kernel's [`Policies::def`](crate::policy::Policies::def) says that they always
+/// hold. What nobody sets is (0, 0, 0, 0). Pixel shader constants are clamped to −1…1.
 /// Numbers in `set` beyond the registers there are have no effect.
 pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]> {
     let kind = kernel.version.kind();
@@ -45,7 +47,11 @@ pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]>
         ShaderKind::Pixel => RegisterFile::Const.count(kernel.version),
     };
     let mut constants = vec![[0.0; 4]; count as usize];
-    for (index, value) in kernel.definitions.iter().chain(set) {
+    let (first, last) = match kernel.policies.def {
+        DefLifetime::WhenSet => (kernel.definitions.as_slice(), set),
+        DefLifetime::Always => (set, kernel.definitions.as_slice()),
+    };
+    for (index, value) in first.iter().chain(last) {
         if let Some(constant) = constants.get_mut(*index as usize) {
             *constant = match kind {
                 ShaderKind::Vertex => *value,

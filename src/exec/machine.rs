@@ -3,6 +3,7 @@
 use super::environment::{Environment, STAGES};
 use crate::isa::{SourceModifier, Swizzle, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::policy::{Model, Policies, ZeroProduct};
 use crate::semantics::{self, Finish};
 use crate::texture::sample_quads;
 use std::ops::Range;
@@ -155,7 +156,7 @@ impl<const N: usize> Machine<N> {
                 observer.killed(number, &self.killed);
                 continue;
             }
-            let result = Self::compute(step, &sources, environment);
+            let result = Self::compute(&kernel.policies, step, &sources, environment);
             observer.computed(number, &sources, &result);
             if step.held && waiting < MOST_HELD {
                 held[waiting] = (number, result);
@@ -190,6 +191,13 @@ impl<const N: usize> Machine<N> {
                 *written = finish.apply(*computed);
             }
         }
+        if step.writes != Model::Float {
+            for c in step.mask.components() {
+                for written in &mut register[c] {
+                    *written = semantics::held(step.writes, *written);
+                }
+            }
+        }
         observer.wrote(number, &before, register);
     }
 
@@ -200,10 +208,11 @@ impl<const N: usize> Machine<N> {
         }
     }
 
-    /// What an operand reads into the slots of the mask.
+    /// What an operand reads into the slots of the mask, as numbers of a model.
     #[inline]
     fn fetch(
         &self,
+        model: Model,
         operand: &Operand,
         slots: WriteMask,
         environment: &Environment<'_>,
@@ -233,7 +242,13 @@ impl<const N: usize> Machine<N> {
             }
             Place::Literal(number) => [[number; N]; 4],
         };
-        if operand.modifier != SourceModifier::None {
+        if model != Model::Float {
+            for slot in slots.components() {
+                for number in &mut value[slot] {
+                    *number = semantics::operand(model, operand.modifier, *number);
+                }
+            }
+        } else if operand.modifier != SourceModifier::None {
             for slot in slots.components() {
                 for number in &mut value[slot] {
                     *number = semantics::modify(operand.modifier, *number);
@@ -247,23 +262,32 @@ impl<const N: usize> Machine<N> {
     fn sources(&self, step: &Step, environment: &Environment<'_>) -> [Lanes<N>; 3] {
         let mut sources = [[[0.0; N]; 4]; 3];
         for (i, (source, operand)) in sources.iter_mut().zip(&step.sources).enumerate() {
-            *source = self.fetch(operand, step.op.slots_read(i, step.mask), environment);
+            let slots = step.op.slots_read(i, step.mask);
+            *source = self.fetch(step.reads, operand, slots, environment);
         }
         sources
     }
 
     /// The result of a step before it is finished. Components outside of the mask may hold anything.
     #[inline]
-    fn compute(step: &Step, sources: &[Lanes<N>; 3], environment: &Environment<'_>) -> Lanes<N> {
+    fn compute(
+        policies: &Policies,
+        step: &Step,
+        sources: &[Lanes<N>; 3],
+        environment: &Environment<'_>,
+    ) -> Lanes<N> {
         let mask = step.mask;
         let [a, b, c] = sources;
         match step.op {
             Op::Mov => *a,
             Op::Add => each(mask, |k, l| a[k][l] + b[k][l]),
             Op::Sub => each(mask, |k, l| a[k][l] - b[k][l]),
-            Op::Mul => each(mask, |k, l| semantics::mul(a[k][l], b[k][l])),
-            Op::Mad => each(mask, |k, l| semantics::mad(a[k][l], b[k][l], c[k][l])),
-            Op::Lrp => each(mask, |k, l| semantics::lrp(a[k][l], b[k][l], c[k][l])),
+            Op::Mul | Op::Mad | Op::Lrp | Op::Dp3 | Op::Dp4 | Op::Lit | Op::Dst => {
+                match policies.zero_product {
+                    ZeroProduct::Zero => products::<N, false>(step, sources),
+                    ZeroProduct::Ieee => products::<N, true>(step, sources),
+                }
+            }
             Op::Min => each(mask, |k, l| semantics::min(a[k][l], b[k][l])),
             Op::Max => each(mask, |k, l| semantics::max(a[k][l], b[k][l])),
             Op::Slt => each(mask, |k, l| semantics::slt(a[k][l], b[k][l])),
@@ -272,16 +296,12 @@ impl<const N: usize> Machine<N> {
             Op::Floor => each(mask, |k, l| semantics::address(a[k][l])),
             Op::Cnd => each(mask, |k, l| semantics::cnd(a[k][l], b[k][l], c[k][l])),
             Op::Cmp => each(mask, |k, l| semantics::cmp(a[k][l], b[k][l], c[k][l])),
-            Op::Dp3 => replicate(|l| semantics::dp3(xyz(a, l), xyz(b, l))),
-            Op::Dp4 => replicate(|l| semantics::dp4(xyzw(a, l), xyzw(b, l))),
-            Op::Rcp => replicate(|l| semantics::rcp(a[0][l])),
-            Op::Rsq => replicate(|l| semantics::rsq(a[0][l])),
+            Op::Rcp => replicate(|l| semantics::rcp(policies.of_zero, a[0][l])),
+            Op::Rsq => replicate(|l| semantics::rsq(policies.of_zero, a[0][l])),
             Op::Exp => replicate(|l| semantics::exp(a[0][l])),
-            Op::Log => replicate(|l| semantics::log(a[0][l])),
+            Op::Log => replicate(|l| semantics::log(policies.of_zero, a[0][l])),
             Op::ExpP => vector(|l| semantics::expp(a[0][l])),
-            Op::LogP => vector(|l| semantics::logp(a[0][l])),
-            Op::Lit => vector(|l| semantics::lit(xyzw(a, l))),
-            Op::Dst => vector(|l| semantics::dst(xyzw(a, l), xyzw(b, l))),
+            Op::LogP => vector(|l| semantics::logp(policies.of_zero, a[0][l])),
             Op::DivideZ => vector(|l| divided(xyzw(a, l), a[2][l])),
             Op::DivideW => vector(|l| divided(xyzw(a, l), a[3][l])),
             Op::Bump(stage) => {
@@ -293,7 +313,9 @@ impl<const N: usize> Machine<N> {
             }
             Op::Luminance(stage) => {
                 let state = &environment.stages[usize::from(stage) % STAGES].bump;
-                each(mask, |k, l| semantics::luminance(a[k][l], b[2][l], state))
+                each(mask, |k, l| {
+                    semantics::luminance(step.reads, a[k][l], b[2][l], state)
+                })
             }
             Op::Reflect => vector(|l| {
                 let [x, y, z] = semantics::reflect(xyz(a, l), xyz(b, l));
@@ -309,6 +331,23 @@ impl<const N: usize> Machine<N> {
             Op::Depth => vector(|l| [semantics::depth(a[0][l], a[1][l]), 0.0, 0.0, 0.0]),
             Op::Kill => [[0.0; N]; 4],
         }
+    }
+}
+
+/// The operations that are made of products.
+#[inline]
+fn products<const N: usize, const IEEE: bool>(step: &Step, sources: &[Lanes<N>; 3]) -> Lanes<N> {
+    use semantics::{dp3, dp4, dst, lit, lrp, mad, product};
+    let mask = step.mask;
+    let [a, b, c] = sources;
+    match step.op {
+        Op::Mad => each(mask, |k, l| mad::<IEEE>(a[k][l], b[k][l], c[k][l])),
+        Op::Lrp => each(mask, |k, l| lrp::<IEEE>(a[k][l], b[k][l], c[k][l])),
+        Op::Dp3 => replicate(|l| dp3::<IEEE>(xyz(a, l), xyz(b, l))),
+        Op::Dp4 => replicate(|l| dp4::<IEEE>(xyzw(a, l), xyzw(b, l))),
+        Op::Lit => vector(|l| lit::<IEEE>(xyzw(a, l))),
+        Op::Dst => vector(|l| dst::<IEEE>(xyzw(a, l), xyzw(b, l))),
+        _ => each(mask, |k, l| product::<IEEE>(a[k][l], b[k][l])),
     }
 }
 

@@ -38,6 +38,7 @@ fn group(subject: &Subject) -> &'static str {
         Subject::Result(_) => "results",
         Subject::Notation(_) => "notation",
         Subject::Version(_) => "versions",
+        Subject::Macro(_) => "macros",
         Subject::Rule(entry) => match entry.group() {
             Group::Text => "text",
             Group::Tokens => "tokens",

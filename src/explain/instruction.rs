@@ -12,11 +12,18 @@ use crate::isa::{
 use crate::program::{Statement, Usage, letters};
 
 /// What the letters of formulas stand for, in the order in which it is told.
-const LEGEND: [(&str, &str); 6] = [
+const LEGEND: [(&str, &str); 7] = [
     ("[m", "m is the number of the destination"),
     ("TC[", "TC[m] are the texture coordinates m"),
     ("S[", "S[m](p) is the texture of stage m at p"),
-    ("row ", "row i is the dot product of row i of the matrix"),
+    (
+        "row 0",
+        "row 0 and row 1 are what the pads before it computed",
+    ),
+    (
+        "row i",
+        "row i is the register i places behind s1, d.i the component i of d",
+    ),
     (
         "M00",
         "M00 to M11 are the bump matrix of the destination's stage",
@@ -57,7 +64,9 @@ pub fn instruction(opcode: Opcode, version: Option<Version>) -> Page {
     }
     page.facts(facts);
     for form in &forms {
-        page.heading(form.versions.to_string());
+        if forms.len() > 1 {
+            page.heading(form.versions.to_string());
+        }
         page.paragraph(form.note);
         let mut facts = Vec::new();
         if !one_text {
@@ -109,12 +118,21 @@ fn formula(form: &Form) -> Vec<Fact> {
     facts
 }
 
-/// The instruction as it is written, with the names of its operands in the formula.
-fn written(opcode: Opcode, form: &Form) -> String {
-    let mnemonic = opcode.mnemonic();
+/// An instruction as it is written, with the names of its operands in the formula: `mad d, s0, s1, s2`.
+pub fn written(opcode: Opcode, form: &Form) -> String {
+    let mnemonic = match opcode {
+        Opcode::Dcl => "dcl_usage",
+        _ => opcode.mnemonic(),
+    };
+    let operands = operand_names(opcode, form).join(", ");
+    format!("{mnemonic} {operands}").trim_end().to_string()
+}
+
+/// The operands of an instruction by their names in its formula, in the order in which they are written.
+pub fn operand_names(opcode: Opcode, form: &Form) -> Vec<String> {
     match opcode {
-        Opcode::Def => return format!("{mnemonic} c#, x, y, z, w"),
-        Opcode::Dcl => return format!("{mnemonic}_usage v#"),
+        Opcode::Def => return ["c#", "x", "y", "z", "w"].map(str::to_string).to_vec(),
+        Opcode::Dcl => return vec!["v#".to_string()],
         _ => {}
     }
     let destination = form
@@ -124,10 +142,7 @@ fn written(opcode: Opcode, form: &Form) -> String {
             false => "d".to_string(),
         });
     let sources = (0..form.sources.len()).map(|i| format!("s{i}"));
-    let operands: Vec<String> = destination.into_iter().chain(sources).collect();
-    format!("{mnemonic} {}", operands.join(", "))
-        .trim_end()
-        .to_string()
+    destination.into_iter().chain(sources).collect()
 }
 
 /// The slots that a form takes of those that its versions have.
@@ -258,10 +273,11 @@ fn source(shape: &SourceShape, form: &Form, version: Version) -> String {
             )
         }
         ModifierRule::Coordinates => {
-            format!(
-                "takes {}",
-                having(&|m| m.row().coordinates.contains(version))
-            )
+            let here = |file: RegisterFile| shape.files.contains(file);
+            let has = |m: SourceModifier| {
+                m.row().coordinates.contains(version) && m.row().divides.is_some_and(here)
+            };
+            format!("takes {}", having(&has))
         }
         ModifierRule::Bx2(versions) => {
             let bx2 = super::modifier::name(SourceModifier::Bx2);

@@ -12,6 +12,7 @@
 mod encoding;
 mod index;
 mod instruction;
+mod macros;
 mod modifier;
 mod names;
 mod notation;
@@ -25,7 +26,8 @@ mod version;
 mod tests;
 
 pub use index::index;
-pub use instruction::{declaration, instruction};
+pub use instruction::{declaration, instruction, operand_names, written};
+pub use macros::token_macro;
 pub use modifier::{modifier, result};
 pub use names::{Unknown, find, subjects};
 pub use notation::notation;

@@ -1,14 +1,19 @@
 //! Pages of modifiers of sources and results.
 
-use super::encoding;
 use super::page::{Fact, Page};
-use crate::isa::modifier::ResultSuffix;
+use super::{encoding, rule};
+use crate::isa::modifier::{ResultSuffix, SourceModifierRow};
 use crate::isa::opcode::ModifierRule;
-use crate::isa::{Opcode, SourceModifier, VersionSet, enumerate};
+use crate::isa::{Opcode, RegisterFile, SourceModifier, VersionSet, enumerate};
 
 /// What a source modifier is called: `-`, `1-`, `_bx2`, `-_bx2`.
 pub(super) fn name(modifier: SourceModifier) -> String {
     modifier.row().around("")
+}
+
+/// The modifier on a register that takes it.
+pub(super) fn written(row: &SourceModifierRow) -> String {
+    row.around(&row.divides.unwrap_or(RegisterFile::Temp).any_name())
 }
 
 /// What a source modifier does.
@@ -17,7 +22,7 @@ pub fn modifier(modifier: SourceModifier) -> Page {
     let mut page = Page::new(name(modifier), "modifier of a source");
     page.paragraph(row.meaning);
     let mut facts = vec![
-        Fact::new("written", row.around("r#")),
+        Fact::new("written", written(row)),
         Fact::new("formula", format!("{}, where x is the source", row.formula)),
         Fact::new("versions", row.versions().to_string()),
     ];
@@ -36,6 +41,10 @@ pub fn modifier(modifier: SourceModifier) -> Page {
     page.facts(facts);
     if let Some(version) = row.versions().iter().last() {
         page.listing(encoding::listing(version, row.example).trim_end());
+    }
+    // Rules that name it are about results where results have it as well.
+    if row.prefix.is_empty() && ResultSuffix::all().all(|other| other.suffix != row.suffix) {
+        rule::mention(&mut page, row.suffix);
     }
     let alike = |other: &SourceModifier| {
         let other = other.row();
@@ -56,7 +65,11 @@ fn instructions_with(modifier: SourceModifier) -> Vec<String> {
             for source in form.sources {
                 let versions = match source.modifiers {
                     ModifierRule::Bx2(versions) if modifier == SourceModifier::Bx2 => versions,
-                    ModifierRule::Coordinates => row.coordinates,
+                    ModifierRule::Coordinates
+                        if row.divides.is_some_and(|file| source.files.contains(file)) =>
+                    {
+                        row.coordinates
+                    }
                     _ => continue,
                 };
                 let here = versions.both(form.versions);
@@ -95,6 +108,7 @@ pub fn result(row: &'static ResultSuffix) -> Page {
     if let Some(version) = row.versions.iter().last() {
         page.listing(encoding::listing(version, row.example).trim_end());
     }
+    rule::mention(&mut page, row.suffix);
     page.see = (ResultSuffix::all())
         .filter(|other| other.suffix != row.suffix)
         .map(|other| other.suffix.to_string())

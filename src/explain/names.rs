@@ -2,6 +2,7 @@
 
 use super::page::Page;
 use super::subject::Subject;
+use crate::bytecode::{Macro, register_named};
 use crate::isa::modifier::ResultSuffix;
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{Notation, Opcode, RegisterFile, SourceModifier, Version};
@@ -40,7 +41,8 @@ impl std::error::Error for Unknown {}
 /// The pages of everything that a name means; with `version` only what this one has of it, where it has it.
 ///
 /// Names are what listings hold, in any case of letters: mnemonics with and without suffixes, registers with and without numbers,
-/// whole operands, modifiers, masks, versions; identifiers of rules; opcodes as `0x12` and `D3DSIO_LRP`.
+/// whole operands, modifiers, masks, versions; identifiers of rules, which are told from registers by their capital: `R5` and `r5`;
+/// opcodes as `0x12` and `D3DSIO_LRP`.
 ///
 /// # Errors
 /// [`Unknown`], with names that are near.
@@ -60,9 +62,12 @@ pub fn subjects(name: &str) -> Result<Vec<Subject>, Unknown> {
     // The longest of them, an operand with everything, is far shorter.
     const LONGEST: usize = 64;
     let text = name.trim().to_ascii_lowercase();
-    let found = match text.len() <= LONGEST {
-        true => meant(&text),
-        false => Vec::new(),
+    // Some rules are called as registers are.
+    let as_written = rules::find(name.trim()).filter(|_| text != name.trim());
+    let found = match as_written {
+        Some(rule) => vec![Subject::Rule(rule)],
+        None if text.len() <= LONGEST => meant(&text),
+        None => Vec::new(),
     };
     if !found.is_empty() {
         return Ok(found);
@@ -76,17 +81,15 @@ pub fn subjects(name: &str) -> Result<Vec<Subject>, Unknown> {
 
 /// What a name in lower case means; the first way of reading that gives something.
 fn meant(text: &str) -> Vec<Subject> {
-    let ways: [fn(&str) -> Vec<Subject>; 9] = [
+    let ways: [fn(&str) -> Vec<Subject>; 10] = [
         |text| version(text).map(Subject::Version).into_iter().collect(),
-        |text| {
-            let found = rules::find(text).map(Subject::Rule);
-            found.into_iter().collect()
-        },
         opcodes_of_token,
+        of_header,
         mnemonic,
         notation,
         modifier,
         |text| register(text).into_iter().collect(),
+        |text| rules::find(text).map(Subject::Rule).into_iter().collect(),
         component_letters,
         operand,
     ];
@@ -110,6 +113,16 @@ fn opcodes_of_token(text: &str) -> Vec<Subject> {
     let with_token = |opcode: &Opcode| token.is_some_and(|token| opcode.row().token == token);
     let all = Opcode::all().filter(with_token);
     all.map(Subject::Instruction).collect()
+}
+
+/// `d3dvsd_reg`, `d3dvsde_normal`, `d3dvsdt_float3`.
+fn of_header(text: &str) -> Vec<Subject> {
+    if let Some(register) = register_named(text) {
+        return vec![Subject::Register(RegisterFile::Input, Some(register))];
+    }
+    let is = |name: &str| name.eq_ignore_ascii_case(text);
+    let named = |of: &&Macro| is(of.name()) || of.types().any(|(name, _)| is(name));
+    Macro::all().filter(named).map(Subject::Macro).collect()
 }
 
 /// `lrp`, `mul_x2_sat`, `dcl_texcoord3`.
@@ -149,10 +162,9 @@ fn notation(text: &str) -> Vec<Subject> {
 fn modifier(text: &str) -> Vec<Subject> {
     let split = |text: &'_ str| -> Option<SourceModifier> {
         let (prefix, suffix) = prefix_of(text);
-        let suffix = suffix.trim_start_matches('_');
-        let suffix = match suffix {
-            "" => String::new(),
-            _ => format!("_{suffix}"),
+        let suffix = match suffix.strip_prefix('_') {
+            None if !suffix.is_empty() => format!("_{suffix}"),
+            _ => suffix.to_string(),
         };
         SourceModifier::from_text(prefix, &suffix).filter(|m| *m != SourceModifier::None)
     };

@@ -61,11 +61,11 @@ pub enum Role {
 }
 
 /// The least width that text is laid out in: room for a label and a word.
-pub const LEAST_WIDTH: usize = 24;
+pub const LEAST_WIDTH: usize = 32;
 /// How far parts behind their heading, and listings, are moved in.
 const INDENT: usize = 2;
 /// The longest label that the answers of a part are moved behind.
-const LABEL: usize = 12;
+const LABEL: usize = 16;
 
 impl Page {
     pub(super) fn new(name: impl Into<String>, title: impl Into<String>) -> Self {

@@ -1,8 +1,11 @@
 //! Pages of rules.
 
+use super::names::subjects;
 use super::page::{Fact, Page};
+use super::subject::Subject;
+use crate::bytecode::{Declaration, StreamKind};
 use crate::diagnostic::{Diagnostic, Severity, SourceMap};
-use crate::extract;
+use crate::extract::{self, Text};
 use crate::listing;
 use crate::policy::Dialect;
 use crate::preprocess;
@@ -29,11 +32,7 @@ pub fn rule(rule: &'static Entry) -> Page {
             shown(&mut page, case.breaks, rule.rule.id);
         }
     }
-    let others = rules::all().filter(|other| other.group() == rule.group());
-    page.see = others
-        .filter(|other| other.rule.id != rule.rule.id)
-        .map(|other| other.rule.id.to_string())
-        .collect();
+    page.see = mentioned(rule);
     page
 }
 
@@ -48,43 +47,44 @@ fn severities(of: impl Fn(Dialect) -> Option<Severity>) -> Vec<Fact> {
 fn shown(page: &mut Page, written: &str, id: &str) {
     let example = Example::new(written);
     page.listing(shortened(&example.text));
-    let said = Dialect::all().find_map(|dialect| {
-        let said = judged(&example.text, dialect);
-        let of_rule = said.into_iter().find(|fact| fact.label.contains(id))?;
-        Some(vec![of_rule])
-    });
+    let said = Dialect::all().find_map(|dialect| judged(&example.text, dialect, id));
     page.facts(said.unwrap_or_default());
 }
 
-/// What `check` says of an example, each with line and rule.
-fn judged(text: &str, dialect: Dialect) -> Vec<Fact> {
+/// What `check` says of the first breach of a rule in an example; `None` if it says nothing.
+fn judged(text: &str, dialect: Dialect, id: &str) -> Option<Vec<Fact>> {
     let mut sources = SourceMap::new();
     let none = preprocess::Options::default();
-    let Ok(file) = extract::open(&mut sources, "example", text.as_bytes().to_vec(), &none) else {
-        return Vec::new();
-    };
+    let file = extract::open(&mut sources, "example", text.as_bytes().to_vec(), &none).ok()?;
     let options = listing::Options {
         dialect,
         ..Default::default()
     };
     let mut found: Vec<Diagnostic> = file.diagnostics;
     for shader in &file.shaders {
-        if let Ok(checked) = extract::check(&mut sources, shader, &options) {
-            found.extend(checked.diagnostics);
+        found.extend(
+            extract::check(&mut sources, shader, &options)
+                .ok()?
+                .diagnostics,
+        );
+    }
+    // D5 holds without a shader, which examples of declarations do not have.
+    for shader in &file.shaders {
+        if let Text::Tokens(stream) = &shader.text
+            && stream.kind == StreamKind::Declaration
+        {
+            let (declaration, _) = Declaration::decode(&stream.words);
+            found.extend(stream.placed(declaration.check_fixed_function()));
         }
     }
-    let told = found.iter().map(|diagnostic| {
-        let line = sources.locate(diagnostic.span).map_or(0, |at| at.line);
-        let severity = diagnostic.severity.name();
-        let label = format!("line {line}, {severity} {}", diagnostic.rule.id);
-        let help = diagnostic.help.as_deref().unwrap_or_default();
-        let text = match help.is_empty() {
-            true => diagnostic.message.clone(),
-            false => format!("{}; {help}", diagnostic.message),
-        };
-        Fact::new(label, text)
-    });
-    told.collect()
+    let breach = found
+        .into_iter()
+        .find(|diagnostic| diagnostic.rule.id == id)?;
+    let line = sources.locate(breach.span).map_or(0, |at| at.line);
+    let message = format!("line {line}: {}", breach.message);
+    let mut facts = vec![Fact::new(breach.severity.name(), message)];
+    facts.extend(breach.help.map(|help| Fact::new("help", help)));
+    Some(facts)
 }
 
 /// A listing with what stands in it many times over said once.
@@ -102,6 +102,24 @@ fn shortened(text: &str) -> String {
         }
     }
     out.join("\n")
+}
+
+/// The names in the sentences of a rule that have pages.
+fn mentioned(rule: &Entry) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for word in words(rule.rule.rule).chain(words(rule.note)) {
+        // Single letters are words of English as well.
+        let found = Some(word).filter(|word| word.len() > 1);
+        let found = found
+            .and_then(|word| subjects(word).ok())
+            .unwrap_or_default();
+        for name in found.iter().map(Subject::name) {
+            if name != rule.rule.id && !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    names
 }
 
 /// Adds the rules of the shader model whose sentences name this word.

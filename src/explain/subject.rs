@@ -1,6 +1,7 @@
 //! Everything that has a page.
 
 use super::page::Page;
+use crate::bytecode::Macro;
 use crate::isa::modifier::ResultSuffix;
 use crate::isa::register::RAST_OUT;
 use crate::isa::{Notation, Opcode, RegisterFile, SourceModifier, Version};
@@ -26,6 +27,8 @@ pub enum Subject {
     Version(Version),
     /// A rule.
     Rule(&'static Entry),
+    /// A macro that makes a token.
+    Macro(&'static Macro),
 }
 
 impl Subject {
@@ -51,6 +54,7 @@ impl Subject {
             .chain(ResultSuffix::all().map(Subject::Result))
             .chain(Notation::all().map(Subject::Notation))
             .chain(Version::all().map(Subject::Version))
+            .chain(Macro::all().map(Subject::Macro))
             .chain(rules::all().map(Subject::Rule))
     }
 
@@ -66,10 +70,12 @@ impl Subject {
             Subject::Notation(notation) => notation.row().names.first().map_or("", |n| n).into(),
             Subject::Version(version) => version.name().to_string(),
             Subject::Rule(entry) => entry.rule.id.to_string(),
+            Subject::Macro(of) => of.name().to_string(),
         }
     }
 
-    /// What kind of thing it is: `instruction`, `register`, `modifier`, `notation`, `version`, `rule`.
+    /// What kind of thing it is: `instruction`, `register`, `modifier`, `notation`, `version`, `rule`,
+    /// `macro`.
     pub fn kind(&self) -> &'static str {
         match self {
             Subject::Instruction(_) | Subject::Declaration(_) => "instruction",
@@ -78,6 +84,7 @@ impl Subject {
             Subject::Notation(_) => "notation",
             Subject::Version(_) => "version",
             Subject::Rule(_) => "rule",
+            Subject::Macro(_) => "macro",
         }
     }
 
@@ -92,6 +99,7 @@ impl Subject {
             Subject::Notation(notation) => super::notation(notation, version),
             Subject::Version(version) => super::version(version),
             Subject::Rule(rule) => super::rule(rule),
+            Subject::Macro(of) => super::token_macro(of),
         }
     }
 }

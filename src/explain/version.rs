@@ -59,7 +59,7 @@ pub fn version(version: Version) -> Page {
         *modifier != SourceModifier::None && modifier.row().versions().contains(version)
     });
     let sources: Vec<String> = sources
-        .map(|modifier| modifier.row().around("r#"))
+        .map(|modifier| super::modifier::written(modifier.row()))
         .collect();
     let mut facts = vec![Fact::new("of sources", sources.join(", "))];
     let results = ResultSuffix::all().filter(|row| row.versions.contains(version));

@@ -2,7 +2,7 @@
 
 use super::string::Joined;
 use crate::diagnostic::{Derivation, Piece, SourceMap, Span};
-use crate::preprocess::scan::{Kind, Language, Scanner};
+use crate::preprocess::scan::{Kind, Language, Lexeme, Scanner};
 use crate::syntax;
 
 /// A shader that was found in a text.
@@ -79,6 +79,7 @@ pub(super) fn scan(text: &[u8]) -> Vec<Found> {
         annotated: false,
         assigned: None,
         elements: None,
+        looking: 8 * text.len(),
         found: Vec::new(),
     };
     while walk.step() {}
@@ -114,6 +115,9 @@ struct Walk<'a> {
     assigned: Option<(Span, usize)>,
     /// How many strings were found in the braces behind `=`, if there are braces.
     elements: Option<usize>,
+    /// How many more bytes may be looked at behind strings in vain; without a bound, conditions within each other would be
+    /// gone through again and again.
+    looking: usize,
     found: Vec<Found>,
 }
 
@@ -134,7 +138,9 @@ impl Walk<'_> {
         match lexeme.kind {
             Kind::End => return false,
             Kind::Blank | Kind::NewLine | Kind::Splice => {}
-            Kind::Sign if lexeme.first && self.bytes(lexeme.span) == b"#" => self.directive(),
+            Kind::Sign if lexeme.first && self.bytes(lexeme.span) == b"#" => {
+                directive(&mut self.scanner, self.text);
+            }
             Kind::Name => self.name(lexeme.span),
             Kind::Text => self.strings(lexeme.span),
             Kind::Number => {}
@@ -144,12 +150,6 @@ impl Walk<'_> {
             }
         }
         true
-    }
-
-    fn directive(&mut self) {
-        self.scanner.directive = true;
-        while !matches!(self.scanner.next().kind, Kind::NewLine | Kind::End) {}
-        self.scanner.directive = false;
     }
 
     fn name(&mut self, span: Span) {
@@ -267,11 +267,13 @@ impl Walk<'_> {
         let mut literals = vec![first];
         loop {
             let mut ahead = self.scanner.clone();
-            let mut next = ahead.next();
-            while matches!(next.kind, Kind::Blank | Kind::NewLine) {
-                next = ahead.next();
-            }
+            let next = match self.looking {
+                0 => behind_blanks(&mut ahead),
+                _ => behind_directives(&mut ahead, self.text),
+            };
             if next.kind != Kind::Text || self.bytes(next.span).first() == Some(&b'\'') {
+                let looked_at = next.span.end.saturating_sub(first.end) as usize;
+                self.looking = self.looking.saturating_sub(looked_at);
                 break;
             }
             literals.push(next.span);
@@ -285,7 +287,7 @@ impl Walk<'_> {
         if let Some(elements) = &mut self.elements {
             *elements += 1;
         }
-        if !syntax::begins_with_version(&joined.bytes) {
+        if !syntax::is_listing(&joined.bytes) {
             return;
         }
         let name = self.called().map(|name| match element {
@@ -294,5 +296,98 @@ impl Walk<'_> {
         });
         let place = Place::Strings(literals);
         self.found.push(Found { name, place });
+    }
+}
+
+/// Reads the line of a directive behind its `#`, and says what it does with the lines behind it.
+fn directive(scanner: &mut Scanner, text: &[u8]) -> Directive {
+    let at = |span: Span| text.get(span.start as usize..span.end as usize);
+    let mut words = Vec::new();
+    scanner.directive = true;
+    loop {
+        let lexeme = scanner.next();
+        match lexeme.kind {
+            Kind::NewLine | Kind::End => break,
+            Kind::Blank | Kind::Splice => {}
+            _ if words.len() < 2 => words.push(at(lexeme.span).unwrap_or(&[])),
+            _ => {}
+        }
+    }
+    scanner.directive = false;
+    match words[..] {
+        [b"if", b"0"] => Directive::IfNot,
+        [b"if" | b"ifdef" | b"ifndef", ..] => Directive::If,
+        [b"elif" | b"else", ..] => Directive::Else,
+        [b"endif", ..] => Directive::End,
+        _ => Directive::Other,
+    }
+}
+
+/// What a directive does with the lines behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Directive {
+    If,
+    /// `#if 0`.
+    IfNot,
+    Else,
+    End,
+    Other,
+}
+
+/// What stands behind directives between two literals. Of the parts of a condition the first one that can hold is read, as
+/// nobody knows here what is defined; a part with a shader of its own is none of these.
+fn behind_directives(scanner: &mut Scanner, text: &[u8]) -> Lexeme {
+    loop {
+        let next = behind_blanks(scanner);
+        if !begins_directive(next, text) {
+            return next;
+        }
+        match directive(scanner, text) {
+            Directive::IfNot => skip_part(scanner, text, true),
+            Directive::Else => {
+                let first = behind_blanks(&mut scanner.clone());
+                let span = first.span.start as usize..first.span.end as usize;
+                let mut joined = Joined::default();
+                joined.add(text.get(span).unwrap_or(&[]), 0);
+                if first.kind == Kind::Text && syntax::begins_with_version(&joined.bytes) {
+                    return next;
+                }
+                skip_part(scanner, text, false);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn behind_blanks(scanner: &mut Scanner) -> Lexeme {
+    loop {
+        let next = scanner.next();
+        if !matches!(next.kind, Kind::Blank | Kind::NewLine | Kind::Splice) {
+            return next;
+        }
+    }
+}
+
+fn begins_directive(lexeme: Lexeme, text: &[u8]) -> bool {
+    lexeme.kind == Kind::Sign && lexeme.first && text.get(lexeme.span.start as usize) == Some(&b'#')
+}
+
+/// Skips a part of a condition with the directive that ends it: the end of the condition or, with `to_else`, its next part.
+fn skip_part(scanner: &mut Scanner, text: &[u8], to_else: bool) {
+    let mut inner = 0_usize;
+    loop {
+        let lexeme = scanner.next();
+        if lexeme.kind == Kind::End {
+            return;
+        }
+        if begins_directive(lexeme, text) {
+            match directive(scanner, text) {
+                Directive::If | Directive::IfNot => inner += 1,
+                Directive::End if inner == 0 => return,
+                Directive::Else if inner == 0 && to_else => return,
+                Directive::End => inner -= 1,
+                _ => {}
+            }
+        }
     }
 }

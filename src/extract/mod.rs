@@ -13,16 +13,20 @@
 //! the file.
 
 mod host;
+mod repair;
 mod string;
 
 #[cfg(test)]
 mod tests;
+
+pub use repair::repair;
 
 use crate::bytecode::{self, Declaration, Stream, StreamKind};
 use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};
 use crate::listing::{self, Checked};
 use crate::preprocess;
 use crate::preprocess::scan::Language;
+use crate::rules::{model, text as text_rules};
 use crate::syntax;
 use std::fmt;
 
@@ -209,6 +213,7 @@ pub fn open(
     bytes: Vec<u8>,
     options: &preprocess::Options<'_>,
 ) -> Result<File, TooLarge> {
+    let bytes = with_line_ends(bytes);
     let (tokens, found) = recognized(&bytes);
     if let Some(form) = tokens.filter(|form| *form != bytecode::Form::Arrays) {
         let before = sources.files().len();
@@ -229,7 +234,16 @@ pub fn open(
     if !found.is_empty() || tokens.is_some() {
         return of_host(sources, name, bytes, options, found);
     }
+    let source = syntax::is_source(&bytes);
     let span = sources.add(name, bytes)?.span();
+    if source {
+        return Ok(File {
+            form: Form::Source,
+            span,
+            shaders: Vec::new(),
+            diagnostics: vec![syntax::no_shader(span.at_start())],
+        });
+    }
     let text = Text::Listing {
         text: span,
         preprocessed: false,
@@ -241,6 +255,18 @@ pub fn open(
         shaders: vec![Shader { name: None, text }],
         diagnostics: Vec::new(),
     })
+}
+
+/// A text whose lines end in nothing but a carriage return, as those of old Macs do, with line feeds instead; everything else
+/// as it is.
+fn with_line_ends(mut bytes: Vec<u8>) -> Vec<u8> {
+    let text = bytes.contains(&b'\r') && !bytes.contains(&b'\n');
+    if text && syntax::not_text(&bytes).is_none() {
+        for byte in bytes.iter_mut().filter(|b| **b == b'\r') {
+            *byte = b'\n';
+        }
+    }
+    bytes
 }
 
 /// Says what a file is: how tokens are written in it, and the listings that stand in it among other things.
@@ -265,13 +291,16 @@ pub enum Layout {
 
 /// Lays out the listing, or the blocks of an effect, as [`syntax::format`] does.
 pub fn format(bytes: &[u8]) -> Layout {
+    let bytes = &with_line_ends(bytes.to_vec())[..];
     let (tokens, found) = recognized(bytes);
     if found.is_empty() {
         return match tokens {
             Some(_) => Layout::Nothing("these are tokens; `dis` makes a listing of them"),
-            None if syntax::not_text(bytes).is_some() || bytes.len() > SourceMap::MAX_BYTES => {
-                Layout::Nothing("this is no listing")
+            None if bytes.len() > SourceMap::MAX_BYTES => {
+                Layout::Nothing("this is longer than a listing can be")
             }
+            None if syntax::not_text(bytes).is_some() => Layout::Nothing("this is no listing"),
+            None if syntax::is_source(bytes) => Layout::Nothing("no listing stands in it"),
             None => Layout::Done(syntax::format(bytes)),
         };
     }
@@ -348,6 +377,7 @@ fn of_host(
         Text::Tokens(stream) => stream.place(Span::new(0, 1)).start,
     };
     shaders.sort_by_key(start);
+    leave_out_later(sources, &mut shaders, &mut diagnostics);
     let form = if effect { Form::Effect } else { Form::Source };
     Ok(File {
         form,
@@ -355,6 +385,47 @@ fn of_host(
         shaders,
         diagnostics,
     })
+}
+
+/// Takes away the shaders of later models if there are others: files of the time hold a shader for each generation of
+/// hardware.
+fn leave_out_later(
+    sources: &SourceMap,
+    shaders: &mut Vec<Shader>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let all: Vec<_> = shaders.iter().map(|s| of_later_model(sources, s)).collect();
+    if all.iter().all(Option::is_some) {
+        return;
+    }
+    let mut one = all.iter();
+    shaders.retain(|_| one.next().is_none_or(Option::is_none));
+    diagnostics.extend(all.into_iter().flatten());
+}
+
+/// What is said of a shader that is left out because it is of a later model.
+fn of_later_model(sources: &SourceMap, shader: &Shader) -> Option<Diagnostic> {
+    const HELP: &str = "the others are read; Direct3D 8 has vs.1.0, vs.1.1 and ps.1.0 to ps.1.4";
+    match &shader.text {
+        Text::Listing { text, .. } => {
+            let version = syntax::later_model(sources.bytes(*text))?;
+            let span = Span::new(text.start + version.start, text.start + version.end);
+            let name = sources.text(span);
+            let message = format!("`{name}` begins a shader of a later model, which is left out");
+            Some(Diagnostic::warning(&text_rules::VERSION_UNKNOWN, span, message).with_help(HELP))
+        }
+        Text::Tokens(stream) => {
+            let word = *stream.words.first()?;
+            let later = word >= 0xFFFE_0000 && matches!(word >> 8 & 0xFF, 2..=5);
+            let message =
+                format!("0x{word:08X} begins a shader of a later model, which is left out");
+            let report = Diagnostic::warning(&model::S13, Span::new(0, 1), message);
+            stream
+                .placed(vec![report.with_help(HELP)])
+                .pop()
+                .filter(|_| later)
+        }
+    }
 }
 
 /// Reads a shader of a file: its text, or its tokens by way of their listing, which is added to the sources.
@@ -381,7 +452,7 @@ pub fn check(
         }
         Text::Tokens(stream) => stream,
     };
-    let made = bytecode::disassemble(stream, sources)?;
+    let made = bytecode::disassemble(stream, None, sources)?;
     let mut checked = Checked {
         program: None,
         diagnostics: made.diagnostics,

@@ -1,5 +1,7 @@
 //! Numbers with a bound of how far executors may part on them.
 
+use crate::policy::Model;
+
 /// How exact an executor is that is allowed to differ from the interpreter.
 ///
 /// The default covers what WGSL and Vulkan promise and what filters of textures do in hardware; an executor that is
@@ -140,6 +142,30 @@ impl Approx {
         let inherited = self.error / size * std::f64::consts::LOG2_E;
         let rounded = precision.logarithm.max(precision.rounding * value.abs());
         Some(Self::new(value, inherited + rounded))
+    }
+
+    /// As the registers of a model hold it. Executors that may be on both sides of where rounding jumps part by a step.
+    pub(super) fn held(self, model: Model, rounding: f64) -> Self {
+        let Some(steps) = model.steps().map(f64::from) else {
+            return self;
+        };
+        let (most, scaled) = (f64::from(model.most()), self.value * steps + 0.5);
+        let held = Self::exact((scaled.floor() / steps).clamp(-most, most));
+        // Where every executor has the same number and its product with the steps is exact, all of them round it alike.
+        let jump = (scaled - scaled.round()).abs() / steps;
+        let sure = jump > 2.0 * self.error + rounding * self.value.abs() || self.is_coarse();
+        let beyond = self.value.abs() - self.error > most;
+        // What is divided in the end need not be the nearest number.
+        let divided = match model {
+            Model::Gf3 if held.value.abs() < 1.0 => rounding * held.value.abs(),
+            _ => 0.0,
+        };
+        let apart = if sure || beyond {
+            0.0
+        } else {
+            self.error + 1.0 / steps
+        };
+        Self::new(held.value, apart + divided)
     }
 
     /// Clamped to 0…1. Beyond the ends by more than the bound, all executors have the end.

@@ -4,8 +4,9 @@ use super::approx::{Approx, Precision, dot};
 use super::textures::{CUBE_MARGIN, Textures};
 use super::{INVOCATIONS, Stage};
 use crate::exec::STAGES;
-use crate::isa::{ResultModifier, SourceModifier, WriteMask};
-use crate::kernel::Op;
+use crate::isa::{SourceModifier, WriteMask};
+use crate::kernel::{Op, Step};
+use crate::policy::Model;
 use crate::semantics::BumpState;
 use crate::texture::TextureKind;
 
@@ -81,7 +82,8 @@ pub(super) fn modified(
 impl Context<'_> {
     /// The result of a step in one invocation before it is finished. `None`: executors that are right may part
     /// here, because a number lies at a threshold or too near to a pole.
-    pub(super) fn step(&self, op: Op, mask: WriteMask, sources: [Quad; 3]) -> Option<Quad> {
+    pub(super) fn step(&self, step: &Step, sources: [Quad; 3]) -> Option<Quad> {
+        let (op, mask, model) = (step.op, step.mask, step.reads);
         let r = self.precision.rounding;
         let [a, b, c] = sources;
         let each = |f: &dyn Fn(usize) -> Option<Approx>| -> Option<Quad> {
@@ -148,7 +150,10 @@ impl Context<'_> {
             Op::Luminance(stage) => {
                 let bump = self.sampling.bump(stage.into());
                 let scaled = b[2].times(number(bump.luminance_scale), r);
-                let luminance = scaled.plus(number(bump.luminance_offset), r);
+                let mut luminance = scaled.plus(number(bump.luminance_offset), r);
+                if model == Model::Gf3 {
+                    luminance = luminance.saturate();
+                }
                 each(&|k| Some(a[k].times(luminance, r)))
             }
             Op::Reflect => {
@@ -170,14 +175,30 @@ impl Context<'_> {
         }
     }
 
-    /// Shift and saturation.
-    pub(super) fn finish(result: ResultModifier, x: Approx) -> Approx {
-        let x = x.scale(f64::from(result.shift).exp2());
-        if result.saturate { x.saturate() } else { x }
+    /// Shift, saturation and the numbers of the model.
+    pub(super) fn finish(&self, step: &Step, x: Approx) -> Approx {
+        let x = x.scale(f64::from(step.result.shift).exp2());
+        let x = if step.result.saturate {
+            x.saturate()
+        } else {
+            x
+        };
+        match (step.op, step.writes.steps()) {
+            // Of a sample only the error is known here, so that it may lie anywhere between two steps.
+            (Op::Sample(_), Some(steps)) if x.error > 0.0 => {
+                Approx::new(x.value, x.error + 1.0 / f64::from(steps))
+            }
+            (Op::Sample(_), _) => x,
+            _ => x.held(step.writes, self.precision.rounding),
+        }
     }
 
     fn fraction(&self, x: Approx) -> Option<Approx> {
         let whole = Approx::exact(x.value.floor());
+        if x == whole {
+            // However large it is: nothing is left, and nothing is rounded.
+            return Some(Approx::ZERO);
+        }
         let fraction = x.minus(whole, self.precision.rounding);
         x.whole_is_sure().then_some(fraction)
     }

@@ -112,6 +112,7 @@ impl<'a> Maker<'a> {
     pub(super) fn kernel_options(&self) -> kernel::Options {
         kernel::Options {
             projection: std::array::from_fn(|i| self.stages[i].projection),
+            ..kernel::Options::default()
         }
     }
 

@@ -220,6 +220,7 @@ impl Generated {
     pub fn lower(&self, program: &Program) -> Result<Kernel, LowerError> {
         let options = kernel::Options {
             projection: std::array::from_fn(|i| self.stages[i].projection),
+            ..kernel::Options::default()
         };
         kernel::lower(program, &options)
     }

@@ -6,6 +6,7 @@ use super::{INVOCATIONS, Options, Stage, Textures};
 use crate::exec::{Environment, Machine, STAGES};
 use crate::isa::{ResultModifier, SourceModifier, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::policy::Model;
 
 /// All registers of all invocations after some instructions, with how far executors may be apart on them.
 #[derive(Clone)]
@@ -77,7 +78,7 @@ impl Probe {
             kernel.steps = group.to_vec();
             next.machine.run(&kernel, environment);
             for (step, bounds) in group.iter().zip(bounds) {
-                next.keep(step, &bounds, options)?;
+                next.keep(step, &bounds, context, options)?;
             }
         }
         Some(next)
@@ -94,12 +95,12 @@ impl Probe {
         let mut sources = [[[Approx::ZERO; 4]; INVOCATIONS]; 3];
         for (i, (source, operand)) in sources.iter_mut().zip(&step.sources).enumerate() {
             let slots = step.op.slots_read(i, step.mask);
-            *source = self.operand(kernel, operand, slots, environment, context);
+            *source = self.operand(kernel, step.reads, operand, slots, environment, context);
         }
         let [a, b, c] = sources;
         let mut bounds = [[Approx::ZERO; 4]; INVOCATIONS];
         for (lane, bound) in bounds.iter_mut().enumerate() {
-            *bound = context.step(step.op, step.mask, [a[lane], b[lane], c[lane]])?;
+            *bound = context.step(step, [a[lane], b[lane], c[lane]])?;
         }
         Some(bounds)
     }
@@ -109,24 +110,42 @@ impl Probe {
     fn operand(
         &mut self,
         kernel: &mut Kernel,
+        model: Model,
         operand: &Operand,
         slots: WriteMask,
         environment: &Environment<'_>,
         context: &Context<'_>,
     ) -> Bounds {
         let kept = *self.machine.register(SCRATCH);
-        kernel.steps = vec![Step {
-            op: Op::Mov,
-            destination: SCRATCH,
-            mask: slots,
-            sources: vec![*operand],
-            result: ResultModifier::NONE,
-            held: false,
-            origin: 0,
-        }];
-        self.machine.run(kernel, environment);
-        let values = *self.machine.register(SCRATCH);
-        *self.machine.register_mut(SCRATCH) = kept;
+        let mut read = |reads: Model, operand: Operand| {
+            kernel.steps = vec![Step {
+                op: Op::Mov,
+                destination: SCRATCH,
+                mask: slots,
+                sources: vec![operand],
+                result: ResultModifier::NONE,
+                reads,
+                writes: Model::Float,
+                held: false,
+                origin: 0,
+            }];
+            self.machine.run(kernel, environment);
+            let values = *self.machine.register(SCRATCH);
+            *self.machine.register_mut(SCRATCH) = kept;
+            values
+        };
+        let values = read(model, *operand);
+        // What lies in the register tells whether all executors round it alike.
+        let stored = match model {
+            Model::Float => values,
+            _ => read(
+                Model::Float,
+                Operand {
+                    modifier: SourceModifier::None,
+                    ..*operand
+                },
+            ),
+        };
         let errors = match operand.place {
             Place::Slot(slot) => self.errors(slot),
             Place::Constant(_) | Place::Relative(_) | Place::Literal(_) => [[0.0; 4]; INVOCATIONS],
@@ -136,6 +155,8 @@ impl Probe {
             for (lane, bound) in bounds.iter_mut().enumerate() {
                 let value = f64::from(values[slot][lane]);
                 let error = errors[lane][operand.swizzle.slot(slot)];
+                let stored = Approx::new(stored[slot][lane].into(), error);
+                let error = stored.held(model, context.precision.rounding).error;
                 bound[slot] = match operand.modifier {
                     SourceModifier::None => Approx::new(value, error),
                     modifier => modified(modifier, error, value, context.precision),
@@ -146,7 +167,13 @@ impl Probe {
     }
 
     /// Takes over the bounds of a step that has run.
-    fn keep(&mut self, step: &Step, bounds: &Bounds, options: &Options) -> Option<()> {
+    fn keep(
+        &mut self,
+        step: &Step,
+        bounds: &Bounds,
+        context: &Context<'_>,
+        options: &Options,
+    ) -> Option<()> {
         if step.op == Op::Kill {
             return Some(());
         }
@@ -155,7 +182,7 @@ impl Probe {
             let values = self.machine.lane(step.destination, lane);
             for c in step.mask.components() {
                 let value = f64::from(values[c]);
-                let error = Context::finish(step.result, bound[c]).error;
+                let error = context.finish(step, bound[c]).error;
                 let finite = value.is_finite() && error.is_finite();
                 if !finite && options.largest_value == f64::INFINITY {
                     // No difference is small here: executors have the same or part.

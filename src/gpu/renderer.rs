@@ -223,6 +223,11 @@ impl<'r, 'd> Frame<'r, 'd> {
         first.map_or(&self.picture, |(picture, _)| picture)
     }
 
+    /// The pictures of registers that were asked for, in their order; none if the picture itself was.
+    pub fn register_pictures(&self) -> impl Iterator<Item = &RgbaImage> {
+        self.registers.iter().map(|(picture, _)| picture)
+    }
+
     /// The picture alone.
     fn into_picture(self) -> RgbaImage {
         let first = self.registers.into_iter().next();

@@ -229,6 +229,7 @@ pub fn stage_options(texture: Option<&Texture>, sampler: &Sampler) -> StageOptio
         address: sampler.address,
         filter: sampler.mag,
         lod_bias: sampler.lod_bias != 0.0,
+        weights: sampler.weights,
         wide_texels: texture.is_some_and(|texture| texture.format() == Format::Rgba32F),
     }
 }

@@ -1,5 +1,6 @@
 //! Source modifiers and result modifiers.
 
+use super::register::RegisterFile;
 use super::version::{Version, VersionSet};
 
 /// What happens to an operand after it is read and swizzled.
@@ -47,6 +48,8 @@ pub struct SourceModifierRow {
     pub arithmetic: VersionSet,
     /// Versions in which it divides texture coordinates.
     pub coordinates: VersionSet,
+    /// The file whose registers it divides; `None` if it does not divide.
+    pub divides: Option<RegisterFile>,
     /// The value as a formula in x.
     pub formula: &'static str,
     /// What it is for, in sentences.
@@ -120,6 +123,11 @@ const fn row(
         alias,
         arithmetic,
         coordinates,
+        divides: match modifier {
+            SourceModifier::Dz => Some(RegisterFile::Temp),
+            SourceModifier::Dw => Some(RegisterFile::Texture),
+            _ => None,
+        },
         formula,
         meaning,
         example,

@@ -6,6 +6,7 @@ use crate::isa::{
     Class, FileSet, Form, MaskSet, Opcode, RegisterFile, ResultModifier, ShaderKind,
     SourceModifier, Swizzle, Version, WriteMask,
 };
+use crate::policy::{LogpLayout, Model, Policies};
 use crate::program::{Destination, Instruction, Program, Register, Source};
 
 /// What a kernel is made for, beside the shader itself.
@@ -13,6 +14,10 @@ use crate::program::{Destination, Instruction, Program, Register, Source};
 pub struct Options {
     /// `D3DTTFF_PROJECTED` of each stage; honoured by `tex`, `texbem` and `texbeml`.
     pub projection: [Projection; 8],
+    /// The numbers that a pixel shader computes with.
+    pub model: Model,
+    /// What instructions do where documents and hardware did not agree.
+    pub policies: Policies,
 }
 
 /// Which component divides the coordinates of a stage before it is sampled.
@@ -92,8 +97,12 @@ pub(super) struct Lowering<'a> {
     group: usize,
     /// Whether the steps of the group run side by side; those of a texture instruction follow one another.
     parallel: bool,
+    /// The numbers of the shader: floats for a vertex shader.
+    model: Model,
     /// The instruction that is being lowered.
     origin: usize,
+    /// Whether it is arithmetic.
+    arithmetic: bool,
     /// Rows that `texm3x2pad` and `texm3x3pad` have left in [`Slot::ROW`] so far.
     pub(super) rows: usize,
 }
@@ -107,7 +116,12 @@ impl<'a> Lowering<'a> {
             steps: Vec::new(),
             group: 0,
             parallel: true,
+            model: match version.kind() {
+                ShaderKind::Vertex => Model::Float,
+                ShaderKind::Pixel => options.model,
+            },
             origin: 0,
+            arithmetic: false,
             rows: 0,
         }
     }
@@ -131,15 +145,34 @@ impl<'a> Lowering<'a> {
         sources: Vec<Operand>,
         result: ResultModifier,
     ) {
+        let (reads, writes) = self.numbers(op, destination);
         self.steps.push(Step {
             op,
             destination,
             mask,
             sources,
             result,
+            reads,
+            writes,
             held: false,
             origin: self.origin,
         });
+    }
+
+    /// The numbers that a step reads and writes.
+    ///
+    /// Arithmetic has those of the model. Coordinates and what is computed of them on the way to a sample are floats under
+    /// every model. A register of the Radeon 8500 holds numbers of one kind, whoever writes them; the texture unit of the
+    /// GeForce 3 hands floats to other texture instructions, and only the combiners, which read them, round.
+    fn numbers(&self, op: Op, destination: Slot) -> (Model, Model) {
+        match (op, self.model) {
+            (Op::Kill | Op::Depth, _) => (Model::Float, Model::Float),
+            // The factor of `texbeml` takes an arithmetic slot: it is a product of the combiners.
+            (Op::Luminance(_), model) => (model, model),
+            (_, model) if self.arithmetic => (model, model),
+            (_, Model::R200) if !destination.is_internal() => (Model::Float, Model::R200),
+            _ => (Model::Float, Model::Float),
+        }
     }
 
     /// Ends the group of steps that read before any of them writes, and holds those whose result a later step of
@@ -197,6 +230,7 @@ impl<'a> Lowering<'a> {
             }
         }
         let slot = self.slot(destination.register)?;
+        self.arithmetic = form.class == Class::Arithmetic;
         match form.class {
             Class::Texture => {
                 self.parallel = false;
@@ -245,7 +279,10 @@ impl<'a> Lowering<'a> {
             Opcode::Exp => Op::Exp,
             Opcode::Log => Op::Log,
             Opcode::ExpP => Op::ExpP,
-            Opcode::LogP => Op::LogP,
+            Opcode::LogP => match self.options.policies.logp {
+                LogpLayout::Parts => Op::LogP,
+                LogpLayout::Logarithm => Op::Log,
+            },
             Opcode::Bem => Op::Bump(stage(destination.register.index as usize)),
             other => return Err(format!("{} is no arithmetic", other.mnemonic())),
         };
@@ -260,8 +297,8 @@ impl<'a> Lowering<'a> {
 
     /// Operands of which an instruction uses one component only read that component in every slot.
     ///
-    /// Scalar instructions take the w slot of the swizzled source: the pseudo-code of the DirectX 8 documents does,
-    /// and shipped programs relied on it. `cnd` before `ps.1.4` takes the alpha of `r0`.
+    /// Scalar instructions take the w slot of the swizzled source, unless the policy says otherwise: the pseudo-code of the
+    /// DirectX 8 documents does, and shipped programs relied on it. `cnd` before `ps.1.4` takes the alpha of `r0`.
     fn spread(
         &self,
         instruction: &Instruction,
@@ -271,7 +308,11 @@ impl<'a> Lowering<'a> {
     ) -> Operand {
         if form.slots_read(i, WriteMask::NONE) == WriteMask::W && instruction.opcode != Opcode::Dp4
         {
-            operand.swizzle = Swizzle::replicate(operand.swizzle.slot(3) as u8);
+            let slot = match self.version.kind() {
+                ShaderKind::Vertex => self.options.policies.scalar.slot(),
+                ShaderKind::Pixel => 3,
+            };
+            operand.swizzle = Swizzle::replicate(operand.swizzle.slot(slot) as u8);
         }
         operand
     }
@@ -364,13 +405,17 @@ impl<'a> Lowering<'a> {
                 written[at] = written[at].or(step.mask);
             }
         }
+        self.arithmetic = false;
         for (set, slot) in coordinates_as_texels {
+            let (reads, writes) = self.numbers(Op::Mov, slot);
             let load = Step {
                 op: Op::Mov,
                 destination: slot,
                 mask: WriteMask::ALL,
                 sources: vec![Operand::slot(set)],
                 result: ResultModifier::NONE,
+                reads,
+                writes,
                 held: false,
                 origin: 0,
             };
@@ -385,6 +430,8 @@ impl<'a> Lowering<'a> {
             .collect();
         Kernel {
             version: self.version,
+            model: self.model,
+            policies: self.options.policies,
             fog_component: scalar_component(written[Slot::FOG.index()]),
             point_size_component: scalar_component(written[Slot::POINT_SIZE.index()]),
             steps: self.steps,
@@ -463,5 +510,5 @@ pub(super) fn stage(index: usize) -> u8 {
 
 /// The divide modifiers belong to coordinates; arithmetic has none of them.
 fn is_divide(modifier: SourceModifier) -> bool {
-    matches!(modifier, SourceModifier::Dz | SourceModifier::Dw)
+    modifier.row().divides.is_some()
 }

@@ -19,16 +19,21 @@ pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use slot::{SLOT_COUNT, Slot};
 
 use crate::isa::{ResultModifier, SourceModifier, Swizzle, Version, WriteMask};
+use crate::policy::{Model, Policies};
 
 /// A shader ready to run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kernel {
     /// The version of the shader.
     pub version: Version,
+    /// The numbers that it computes with; floats for vertex shaders.
+    pub model: Model,
+    /// The numeric choices that it was lowered with. [`Policies::scalar`] and [`Policies::logp`] are in its steps already.
+    pub policies: Policies,
     /// The steps in order.
     pub steps: Vec<Step>,
     /// Constants that the shader defines itself (`def`), in order; the last of one register counts. Direct3D 8
-    /// loads them when the shader is set, so that constants set later replace them.
+    /// loads them when the shader is set, so that constants set later replace them, unless [`Policies::def`] says otherwise.
     pub definitions: Vec<(u32, [f32; 4])>,
     /// Slots that hold a fixed value before the first step: temporaries 0, outputs what Direct3D 8 gives
     /// outputs that are never written.
@@ -96,6 +101,11 @@ pub struct Step {
     pub sources: Vec<Operand>,
     /// Shift and saturation of the result.
     pub result: ResultModifier,
+    /// The numbers that operands become when the step reads them, and whose source modifiers it has. Registers may hold
+    /// others: what texture instructions leave in them under [`Model::Gf3`], colours and constants.
+    pub reads: Model,
+    /// The numbers that the result becomes behind shift and saturation.
+    pub writes: Model,
     /// Whether the write waits until the next step that is not held has been computed. The halves of a co-issued
     /// pair and the rows of a matrix macro all read before any of them writes.
     pub held: bool,
@@ -185,7 +195,7 @@ pub enum Op {
     Dp3,
     /// Four-component dot product in every component
     Dp4,
-    /// 1 / s0.x in every component
+    /// 1 / s0.x in every component; of 0 as [`Policies::of_zero`] says, as for the next ones
     Rcp,
     /// 1 / √|s0.x| in every component
     Rsq,

@@ -117,6 +117,8 @@ impl Preprocessor<'_, '_> {
                 Some((parameters, length)) => {
                     (Some(parameters), behind.get(length..).unwrap_or(&[]))
                 }
+                // Later languages have more of them, which no listing uses.
+                None if self.language == Language::Host => return,
                 None => {
                     let message = "the parameters of this macro are no list of names";
                     let help = "write #define NAME(A, B) text";

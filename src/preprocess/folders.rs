@@ -18,6 +18,23 @@ pub struct Folders<'a> {
 
 impl Resolver for Folders<'_> {
     fn include(&self, path: &str, angled: bool, from: Option<&str>) -> io::Result<Included> {
+        self.include_beside(path, angled, from, &|_| None)
+    }
+}
+
+impl Folders<'_> {
+    /// As [`Resolver::include`], where somebody may have files open and have changed them: `open` gives the text of such a
+    /// file, which goes before what the disk has at its place.
+    ///
+    /// # Errors
+    /// There is no such file, or it cannot be read.
+    pub fn include_beside(
+        &self,
+        path: &str,
+        angled: bool,
+        from: Option<&str>,
+        open: &dyn Fn(&Path) -> Option<Vec<u8>>,
+    ) -> io::Result<Included> {
         let from = Path::new(from.unwrap_or(if self.file == "-" { "" } else { self.file }));
         let own = from.parent().unwrap_or(Path::new("")).to_path_buf();
         let given = self.folders.iter().cloned();
@@ -27,12 +44,26 @@ impl Resolver for Folders<'_> {
         };
         // Listings were written on Windows.
         let path = path.replace('\\', "/");
-        let found = folders.iter().find_map(|folder| place(folder, &path));
-        let place = found.ok_or_else(|| io::Error::from(io::ErrorKind::NotFound))?;
-        // One byte more than the sources take, so that it is seen to be too long.
-        let most = SourceMap::MAX_BYTES as u64 + 1;
-        let mut bytes = Vec::new();
-        fs::File::open(&place)?.take(most).read_to_end(&mut bytes)?;
+        let missing = || io::Error::from(io::ErrorKind::NotFound);
+        let found = folders.iter().find_map(|folder| {
+            let named = folder.join(&path);
+            if let Some(bytes) = open(&named) {
+                return Some((named, Some(bytes)));
+            }
+            let place = place(folder, &path)?;
+            let bytes = open(&place);
+            Some((place, bytes))
+        });
+        let (place, bytes) = match found.ok_or_else(missing)? {
+            (place, Some(bytes)) => (place, bytes),
+            (place, None) => {
+                // One byte more than the sources take, so that it is seen to be too long.
+                let most = SourceMap::MAX_BYTES as u64 + 1;
+                let mut bytes = Vec::new();
+                fs::File::open(&place)?.take(most).read_to_end(&mut bytes)?;
+                (place, bytes)
+            }
+        };
         let name = place.display().to_string();
         Ok(Included {
             path: name.clone(),

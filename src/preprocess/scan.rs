@@ -14,7 +14,7 @@ pub(crate) enum Kind {
     Blank,
     /// The end of a line.
     NewLine,
-    /// A backslash at the end of a line of a directive, with the line end.
+    /// A backslash at the end of a line, with the line end: in directives, and anywhere in C.
     Splice,
     /// A string with its quotes; only where strings are looked for.
     Text,
@@ -58,7 +58,7 @@ impl Block {
     /// Where they are behind a word or sign.
     fn behind(self, kind: Kind, text: &[u8]) -> Self {
         match (self, kind) {
-            (block, Kind::Blank | Kind::NewLine) => block,
+            (block, Kind::Blank | Kind::NewLine | Kind::Splice) => block,
             (Block::Inside, Kind::Sign) if text == b"}" => Block::Outside,
             (Block::Inside, _) => Block::Inside,
             (Block::Announced, Kind::Sign) if text == b"{" => Block::Inside,
@@ -87,11 +87,7 @@ pub(crate) struct Scanner {
 
 impl Scanner {
     pub(crate) fn new(text: Arc<[u8]>, base: u32, language: Language) -> Self {
-        // Some listings were cut out of programs with the NUL behind them.
-        let end = text
-            .iter()
-            .rposition(|b| *b != 0)
-            .map_or(0, |last| last + 1);
+        let end = without_nul(&text).len();
         let at = if text.starts_with(b"\xEF\xBB\xBF") {
             3
         } else {
@@ -176,7 +172,7 @@ impl Scanner {
         match first {
             b'\n' => (Kind::NewLine, 1),
             b'\r' if rest.starts_with(b"\r\n") => (Kind::NewLine, 2),
-            b'\\' if self.directive && splice(rest).is_some() => {
+            b'\\' if (self.directive || !self.in_listing()) && splice(rest).is_some() => {
                 (Kind::Splice, splice(rest).unwrap_or(1))
             }
             b';' if self.in_listing() => (Kind::Blank, self.line(rest)),
@@ -213,6 +209,21 @@ impl Scanner {
             Some(comment) if end < rest.len() => comment.len(),
             _ => line.len(),
         }
+    }
+}
+
+/// A text without what stands behind it: some listings were cut out of programs with the NUL at their end, and a line end
+/// or the end-of-file mark of DOS came behind that.
+pub(crate) fn without_nul(bytes: &[u8]) -> &[u8] {
+    let is_end = |b: &u8| matches!(b, 0 | 0x1A) || is_blank(*b) || *b == b'\n';
+    let end = bytes
+        .iter()
+        .rposition(|b| !is_end(b))
+        .map_or(0, |at| at + 1);
+    let (text, behind) = bytes.split_at_checked(end).unwrap_or((bytes, &[]));
+    match behind.iter().position(|b| *b == 0) {
+        Some(nul) => bytes.get(..end + nul).unwrap_or(text),
+        None => bytes,
     }
 }
 

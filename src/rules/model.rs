@@ -68,6 +68,14 @@ impl Code {
         self.row().rule
     }
 
+    /// What else is to be known of the rule, in sentences.
+    pub(crate) fn note(self) -> &'static str {
+        let own = ENTRIES
+            .iter()
+            .find(|entry| std::ptr::eq(entry.rule, self.rule()));
+        own.map_or("", |entry| entry.note)
+    }
+
     /// How severe the breach is; `None` if the dialect does not have the rule.
     pub(crate) fn severity(self, dialect: Dialect) -> Option<Severity> {
         self.row().severities.of(dialect)
@@ -112,7 +120,8 @@ model! {
         keeps "ps.1.1 | mov r0, v0";
     S2 LATER "def stands before the first arithmetic or texture instruction."
         breaks "ps.1.1 | tex t0 | {def c0, 0, 0, 0, 0} | def c1, 0, 0, 0, 0 | mul r0, t0, c0"
-        keeps "ps.1.1 | def c0, 0, 0, 0, 0 | tex t0 | mul r0, t0, c0";
+        keeps "ps.1.1 | def c0, 0, 0, 0, 0 | tex t0 | mul r0, t0, c0"
+        note "Direct3D 8 took a def anywhere; Direct3D 9 wants it in front of all instructions.";
     S3 MEANT "In ps.1.0 to ps.1.3 texture instructions stand before arithmetic instructions."
         breaks "ps.1.1 | mov r0, v0 | {tex} t0 | tex t1 | mov r0, t0"
         keeps "ps.1.1 | nop | tex t0 | tex t1 | mov r0, t0";
@@ -135,14 +144,16 @@ model! {
         keeps "vs.1.1 | mov oPos, v0";
     S9 LATER "A vertex shader writes all four components of oPos."
         breaks "vs.1.1 | mov {oPos.xyz}, v0"
-        keeps "vs.1.1 | mov oPos.xyz, v0 | mov oPos.w, c0";
+        keeps "vs.1.1 | mov oPos.xyz, v0 | mov oPos.w, c0"
+        note "Direct3D 8 let components be missing; Direct3D 9 wants the whole position.";
     S10 STRICT "oT# are written without gaps: oT1 only with oT0, y only with x."
         breaks "vs.1.1 | mov oPos, v0 | mov {oT1}, v7"
-        keeps "vs.1.1 | mov oPos, v0 | mov oT0.y, v7 | mov oT0.x, v7 | mov oT1, v7";
+        keeps "vs.1.1 | mov oPos, v0 | mov oT0.y, v7 | mov oT0.x, v7 | mov oT1, v7"
+        note "Direct3D 8 has no such rule; Direct3D 9 checks which components of each oT# are written and refuses gaps.";
     S11 STRICT "A vertex shader declares the inputs that it reads."
         breaks "vs.1.1 | dcl_position v0 | mov oPos, v0 | mov oD0, {v5}"
         keeps "vs.1.1 | dcl_position v0 | dcl_color v5 | mov oPos, v0 | mov oD0, v5"
-        note "The inputs of Direct3D 8 are declared beside the shader, in an array of D3DVSD_ tokens; dcl_ came with Direct3D 9.";
+        note "Direct3D 8 takes the inputs from an array of D3DVSD_ tokens beside the shader; Direct3D 9 has them declared by dcl_ in the shader.";
     S12 REFUSED "A shader in tokens ends with the token 0x0000FFFF."
         breaks "FFFF0101 | 00000001 800F0000 90E40000"
         keeps "FFFF0101 | 00000001 800F0000 90E40000 | 0000FFFF"
@@ -224,13 +235,16 @@ model! {
             breaks "vs.1.1 | mov oPos, v0 | m3x3 {r0}, v0, c0";
     O20 LATER "A matrix macro does not write a register that it reads."
         breaks "vs.1.1 | mov r0, v0 | m4x4 r0, {r0}, c0 | mov oPos, r0"
-        keeps "vs.1.1 | mov r0, v0 | m4x4 r1, r0, c0 | mov oPos, r1";
+        keeps "vs.1.1 | mov r0, v0 | m4x4 r1, r0, c0 | mov oPos, r1"
+        note "Direct3D 8 took it; Direct3D 9 expands the macro, so that the second row would read what the first has written.";
     O21 LATER "rcp, rsq, exp, expp, log and logp read one component, named by one letter."
         breaks "vs.1.1 | mov oPos, v0 | rcp r0, {v0}"
-        keeps "vs.1.1 | mov oPos, v0 | rcp r0, v0.w | logp r0, -v0.y";
+        keeps "vs.1.1 | mov oPos, v0 | rcp r0, v0.w | logp r0, -v0.y"
+        note "Direct3D 8 took the fourth component where none was named; Direct3D 9 wants one named.";
     O22 LATER "frc writes .y or .xy."
         breaks "vs.1.1 | mov oPos, v0 | frc {r0}, v0"
-        keeps "vs.1.1 | mov oPos, v0 | frc r0.xy, v0 | frc r0.y, v0";
+        keeps "vs.1.1 | mov oPos, v0 | frc r0.xy, v0 | frc r0.y, v0"
+        note "Direct3D 8 took any mask; Direct3D 9 computes .y, or .x and .y, and refuses others.";
     O23 REFUSED "Vertex shaders know no modifier but the minus sign."
         breaks "vs.1.1 | mov oPos, v0 | {mov_sat} oD0, v0"
         keeps "vs.1.1 | mov oPos, -v0";
@@ -264,7 +278,8 @@ model! {
         keeps "ps.1.4 | mov r0, c0 | mul r0, c1, 1-r0";
     M6 LATER "What a modifier does to a constant is not defined in ps.1.0 to ps.1.3."
         breaks "ps.1.1 | add r0, v0, {-c1}"
-        keeps "ps.1.1 | sub r0, v0, c1";
+        keeps "ps.1.1 | sub r0, v0, c1"
+        note "Direct3D 8 took it against its own documents; Direct3D 9 refuses a modifier on a constant.";
     M7 MEANT "ps.1.0 to ps.1.3 write .rgba, .rgb or .a."
         breaks "ps.1.1 | mov r0, v0 | mov {r0.r}, c0"
         keeps "ps.1.1 | mov r0, v0 | mov r0.a, c0";
@@ -362,6 +377,7 @@ model! {
     I1 MEANT "A component of r# is written before it is read."
         breaks "ps.1.1 | add r0, {r0}, v0"
         keeps "ps.1.1 | mov r0.rgb, v0 | +mov r0.a, v0 | mul r0, r0, r0"
+        note "Direct3D 8 let vertex shaders read what was never written, as 0; Direct3D 9 refuses it."
         case I1Vertex LATER "in vertex shaders, where it reads 0"
             breaks "vs.1.1 | mov oPos, {r0}";
     I2 MEANT "phase loses the alpha of every r#."
@@ -379,7 +395,7 @@ model! {
     I6 SILENT "A component that a mask or selector leaves out need not have been written."
         note "This allows, so that nothing can break it; I1 speaks of the components that have an effect.";
     I7 ADVICE "A vertex shader reads constants that were set; others are 0."
-        note "Constants are also set beside the shader, so that no listing shows it. eval, which is given them, warns.";
+        note "Constants are also set beside the shader, so that no listing shows it; eval, which is given them, warns.";
     C1 REFUSED "Vertex shaders have no pairs."
         breaks "vs.1.1 | mov oPos, v0 | +{mov} r0, v0"
         keeps "vs.1.1 | mov oPos, v0 | mov r0, v0";
@@ -415,6 +431,8 @@ model! {
     D4 REFUSED "D3DVSD_CONST loads 1 to 15 constants, none above the 96 that every device has."
         breaks "D3DVSD_CONST(96, 1), | 0x00000000, 0x00000000, 0x00000000, 0x3F800000, | D3DVSD_END()"
         keeps "D3DVSD_CONST(95, 1), | 0x00000000, 0x00000000, 0x00000000, 0x3F800000, | D3DVSD_END()";
-    D5 SILENT "A vertex declaration that is used without a shader loads each register with what it stands for there."
-        note "A declaration does not say whether a shader goes with it; texcrd judges it as beside one.";
+    D5 ADVICE "Without a vertex shader each register of a declaration keeps its fixed meaning, and D3DVSDE_NORMAL is D3DVSDT_FLOAT3."
+        breaks "D3DVSD_STREAM(0), | D3DVSD_REG(D3DVSDE_NORMAL, D3DVSDT_FLOAT4), | D3DVSD_END()"
+        keeps "D3DVSD_STREAM(0), | D3DVSD_REG(D3DVSDE_NORMAL, D3DVSDT_FLOAT3), | D3DVSD_END()"
+        note "A declaration does not say whether a shader goes with it; dis --fixed-function judges it as one without.";
 }

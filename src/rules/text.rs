@@ -37,4 +37,5 @@ super::named! {
     STOPPED "P30" REFUSED "#error ends the reading of a listing.";
     ARGUMENTS "P31" REFUSED "A macro with parameters is used with as many arguments, in one pair of parentheses.";
     REDEFINED "P32" ADVICE "A name is defined once, or again with the same text.";
+    MAYBE_MACRO "P33" ADVICE "What is no instruction may be a macro where an included file could not be read; then nobody can tell what the shader is.";
 }

@@ -16,11 +16,10 @@ use crate::isa::register::VERTEX_CONSTANTS;
 use crate::isa::{RegisterFile, Version};
 use crate::kernel::{Options, Projection, Slot};
 use crate::mesh::Attribute;
-use crate::policy::Dialect;
 use crate::program::{Program, Usage};
 use crate::raster::{RenderState, Topology};
 use crate::semantics::BumpState;
-use crate::texture::Sampler;
+use crate::texture::{Sampler, Weights};
 
 /// Which attribute of the mesh feeds each input register `v0` to `v15`; one that nothing feeds reads (0, 0, 0, 1).
 pub type Declaration = [Option<Attribute>; 16];
@@ -43,7 +42,6 @@ pub(super) struct Known<'a> {
     pub(super) meshes: &'a Names,
     pub(super) textures: &'a Names,
     pub(super) targets: &'a Names,
-    pub(super) dialect: Dialect,
 }
 
 /// One draw call, before it is known into what it draws.
@@ -104,8 +102,8 @@ pub(super) fn read(
         .and_then(|name| find(known.meshes, "mesh", &name, problems));
     let topology = s.named("topology", Topology::TriangleList, problems);
     let world = s.node("world").and_then(|node| transform(node, problems));
-    let vertex = shader::read(s, &shader::VERTEX, known.dialect, files, problems);
-    let pixel = shader::read(s, &shader::PIXEL, known.dialect, files, problems);
+    let vertex = shader::read(s, &shader::VERTEX, files, problems);
+    let pixel = shader::read(s, &shader::PIXEL, files, problems);
     let declared = s
         .table("declaration", problems)
         .map(|table| declaration(table, problems));
@@ -119,7 +117,7 @@ pub(super) fn read(
     });
     let (stages, read_stages) = s
         .table("stages", problems)
-        .map(|table| stages(table, known, problems))
+        .map(|table| stages(table, known, files.weights(), problems))
         .unwrap_or_default();
     let state = s
         .table("state", problems)
@@ -134,10 +132,11 @@ pub(super) fn read(
             Some(stage) if stage.projected => Projection::Fourth,
             _ => Projection::None,
         }),
+        ..files.lowering()
     };
     let (vertex, pixel) = (vertex?, pixel?);
     let declaration = declared.unwrap_or_else(|| default_declaration(&vertex.value));
-    let lowered_vertex = shader::lowered(&vertex, &Options::default(), problems);
+    let lowered_vertex = shader::lowered(&vertex, &files.lowering(), problems);
     let lowered_pixel = shader::lowered(&pixel, &options, problems);
     let (vertex_shader, pixel_shader) = (lowered_vertex?, lowered_pixel?);
     for (register, attribute) in declaration.iter().enumerate() {
@@ -238,6 +237,7 @@ fn default_declaration(program: &Program) -> Declaration {
 fn stages(
     mut section: Section<'_>,
     known: &Known<'_>,
+    weights: Weights,
     problems: &mut Problems,
 ) -> ([Stage; STAGES], [bool; STAGES]) {
     let mut stages: [Stage; STAGES] = Default::default();
@@ -257,7 +257,7 @@ fn stages(
         let texture = table.at::<String>("texture", problems);
         stages[number] = Stage {
             texture: texture.and_then(|name| texture_number(&name, known, problems)),
-            sampler: sampler(&mut table, problems),
+            sampler: sampler(&mut table, weights, problems),
             bump: bump(&mut table, problems),
             projected: table.or("projected", false, problems),
         };

@@ -3,13 +3,15 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::LoadOptions;
 use super::error::{Problems, rules};
 use super::resolve::Resolver;
 use super::section::At;
 use crate::diagnostic::{SourceMap, Span};
+use crate::kernel;
 use crate::mesh::Mesh;
 use crate::program::Program;
-use crate::texture::Texture;
+use crate::texture::{Signed, Texture, Weights};
 
 /// Most texels that the textures and render targets of a scene may have together, mip levels not counted (2²⁷).
 pub const MAX_TEXELS: u64 = 1 << 27;
@@ -20,6 +22,7 @@ pub const MAX_SCENE_VERTICES: usize = 1 << 23;
 /// What reading a scene draws on.
 pub(crate) struct Files<'r> {
     pub(crate) resolver: &'r dyn Resolver,
+    pub(crate) options: LoadOptions,
     pub(crate) sources: SourceMap,
     /// Listings by the path that the scene file writes; `None` for those that cannot be used.
     pub(crate) programs: HashMap<String, Option<Arc<Program>>>,
@@ -28,13 +31,39 @@ pub(crate) struct Files<'r> {
 }
 
 impl<'r> Files<'r> {
-    pub(crate) fn new(resolver: &'r dyn Resolver) -> Self {
+    pub(crate) fn new(resolver: &'r dyn Resolver, options: &LoadOptions) -> Self {
         Self {
             resolver,
+            options: *options,
             sources: SourceMap::new(),
             programs: HashMap::new(),
             texels: 0,
             vertices: 0,
+        }
+    }
+
+    /// What shaders are lowered with, whatever their texture stages are.
+    pub(crate) fn lowering(&self) -> kernel::Options {
+        kernel::Options {
+            model: self.options.model,
+            policies: self.options.policies,
+            ..kernel::Options::default()
+        }
+    }
+
+    /// What the codes of signed textures stand for under the model.
+    pub(crate) fn signed(&self) -> Signed {
+        match self.options.model.has_lopsided_texels() {
+            true => Signed::Lopsided,
+            false => Signed::Symmetric,
+        }
+    }
+
+    /// How exact the filters of textures are under the model.
+    pub(crate) fn weights(&self) -> Weights {
+        match self.options.model.has_coarse_filters() {
+            true => Weights::EightBits,
+            false => Weights::Full,
         }
     }
 

@@ -31,8 +31,8 @@ impl Scene {
         resolver: &dyn Resolver,
         options: &LoadOptions,
     ) -> Result<Self, Box<SceneError>> {
-        let loaded = load(name, bytes, resolver, |files, problems| {
-            read(bytes, options, files, problems)
+        let loaded = load(name, bytes, resolver, options, |files, problems| {
+            read(bytes, files, problems)
         })?;
         Ok(Self {
             sources: loaded.sources,
@@ -58,9 +58,10 @@ pub(crate) fn load<T>(
     name: &str,
     bytes: &[u8],
     resolver: &dyn Resolver,
+    options: &LoadOptions,
     read: impl FnOnce(&mut Files<'_>, &mut Problems) -> Option<T>,
 ) -> Result<Loaded<T>, Box<SceneError>> {
-    let mut files = Files::new(resolver);
+    let mut files = Files::new(resolver, options);
     let mut problems = Problems::default();
     let (mut sources, mut value) = (SourceMap::new(), None);
     match files.sources.add(name, bytes) {
@@ -91,12 +92,7 @@ pub(crate) fn load<T>(
     }
 }
 
-fn read(
-    bytes: &[u8],
-    options: &LoadOptions,
-    files: &mut Files<'_>,
-    problems: &mut Problems,
-) -> Option<Scene> {
+fn read(bytes: &[u8], files: &mut Files<'_>, problems: &mut Problems) -> Option<Scene> {
     let whole = problems.span(0..0);
     let table = include::parse(bytes, 0, problems)?;
     let mut root = Section::outermost("the scene file", table, problems);
@@ -126,7 +122,6 @@ fn read(
         meshes: &mesh_names,
         textures: &texture_names,
         targets: &target_names,
-        dialect: options.dialect,
     };
     let draws: Vec<Option<Draw>> = draw_sections
         .into_iter()

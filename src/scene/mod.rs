@@ -35,7 +35,7 @@ mod tests;
 use glam::Vec3;
 
 use crate::diagnostic::{Diagnostic, SourceMap};
-use crate::policy::Dialect;
+use crate::policy::{Dialect, Model, Policies};
 use crate::texture::Texture;
 
 pub use draw::Declaration;
@@ -61,6 +61,10 @@ pub use target::MAX_TARGET_SIDE;
 pub struct LoadOptions {
     /// By whose rules the listings are judged.
     pub dialect: Dialect,
+    /// The numbers that the pixel shaders compute with, and how the textures of the time were read.
+    pub model: Model,
+    /// What instructions do where documents and hardware did not agree.
+    pub policies: Policies,
 }
 
 /// A scene, ready to be rendered: nothing of it lies in files any more.

@@ -7,11 +7,11 @@ use super::error::{Problems, rules};
 use super::files::Files;
 use super::resolve::Resolver;
 use super::section::{At, Section};
-use crate::diagnostic::{Diagnostic, SourceFile, Span};
+use crate::diagnostic::{Diagnostic, Rule, Span, TooLarge, any_error};
+use crate::extract::{self, Text};
 use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Options, lower};
-use crate::listing;
-use crate::policy::Dialect;
+use crate::listing::{self, Checked};
 use crate::preprocess::{self, Included};
 use crate::program::Program;
 
@@ -55,7 +55,6 @@ pub(crate) type Named = At<Arc<Program>>;
 pub(crate) fn read(
     section: &mut Section<'_>,
     keys: &Keys,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Named> {
@@ -66,14 +65,14 @@ pub(crate) fn read(
     let file = section.at::<String>(keys.file, problems);
     let text = section.at::<String>(keys.text, problems);
     let (span, program) = match (file, text) {
-        (Some(file), None) => (file.span, from_file(&file, dialect, files, problems)?),
+        (Some(file), None) => (file.span, from_file(&file, files, problems)?),
         (None, Some(text)) => {
             // The places in a text are counted from its first line, so it needs a name of its own.
             let name = format!("{}, `{}`", section.title, keys.text);
             let bytes = text.value.into_bytes();
             (
                 text.span,
-                program("", name, bytes, text.span, dialect, files, problems)?,
+                program("", name, bytes, text.span, files, problems)?,
             )
         }
         (Some(_), Some(text)) => {
@@ -97,7 +96,6 @@ pub(crate) fn read(
 
 fn from_file(
     path: &At<String>,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
@@ -105,17 +103,9 @@ fn from_file(
         return known.clone();
     }
     let name = files.resolver.display_name(&path.value);
-    let found = files.read(path, problems).and_then(|bytes| {
-        program(
-            &path.value,
-            name,
-            bytes,
-            path.span,
-            dialect,
-            files,
-            problems,
-        )
-    });
+    let found = files
+        .read(path, problems)
+        .and_then(|bytes| program(&path.value, name, bytes, path.span, files, problems));
     files.programs.insert(path.value.clone(), found.clone());
     found
 }
@@ -148,29 +138,25 @@ fn program(
     name: String,
     bytes: Vec<u8>,
     span: Span,
-    dialect: Dialect,
     files: &mut Files<'_>,
     problems: &mut Problems,
 ) -> Option<Arc<Program>> {
-    let file = files.sources.add(name, bytes).map(SourceFile::span);
-    let checked = match file {
-        Ok(file) => {
-            let resolver = Includes {
-                resolver: files.resolver,
-                listing,
-            };
-            let options = listing::Options {
-                dialect,
-                preprocess: preprocess::Options {
-                    definitions: &[],
-                    resolver: &resolver,
-                },
-                ..Default::default()
-            };
-            listing::read(&mut files.sources, file, &options)
-        }
-        Err(error) => {
-            problems.error(&rules::LIMIT, span, error.to_string());
+    let resolver = Includes {
+        resolver: files.resolver,
+        listing,
+    };
+    let options = listing::Options {
+        dialect: files.options.dialect,
+        preprocess: preprocess::Options {
+            definitions: &[],
+            resolver: &resolver,
+        },
+        ..Default::default()
+    };
+    let checked = match only_shader(&name, bytes, &options, files) {
+        Ok(checked) => checked,
+        Err((rule, message)) => {
+            problems.error(rule, span, message);
             return None;
         }
     };
@@ -179,6 +165,36 @@ fn program(
         problems.push(diagnostic);
     }
     accepted
+}
+
+/// Reads and judges the one shader of a file: a listing, tokens, or an effect or source of C with one shader in it.
+fn only_shader(
+    name: &str,
+    bytes: Vec<u8>,
+    options: &listing::Options<'_>,
+    files: &mut Files<'_>,
+) -> Result<Checked, (&'static Rule, String)> {
+    let told = |error: TooLarge| (&rules::LIMIT, error.to_string());
+    let sources = &mut files.sources;
+    let file = extract::open(sources, name, bytes, &options.preprocess).map_err(told)?;
+    let [shader] = &file.shaders[..] else {
+        let names = file.names().join(", ");
+        let message = match file.shaders.len() {
+            0 => format!("{name}: there is no shader in this file"),
+            _ => format!("{name}: one shader is meant, and this file has several: {names}"),
+        };
+        return Err((&rules::SHADER, message));
+    };
+    let mut checked = extract::check(sources, shader, options).map_err(told)?;
+    checked.diagnostics.splice(0..0, file.diagnostics);
+    if checked.program.is_none() && !any_error(&checked.diagnostics) {
+        let what = match shader.text {
+            Text::Tokens(_) => "this is a vertex declaration, no shader",
+            Text::Listing { .. } => "lines of it may be macros of a file that could not be read",
+        };
+        return Err((&rules::SHADER, format!("{name}: {what}")));
+    }
+    Ok(checked)
 }
 
 /// Lowers a listing for the stages of a draw.

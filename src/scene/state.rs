@@ -9,7 +9,7 @@ use crate::raster::{
     AlphaTest, BlendState, ColorMask, DepthState, FogState, PointState, RenderState, StencilState,
 };
 use crate::semantics::BumpState;
-use crate::texture::{Filter, Sampler};
+use crate::texture::{Filter, Sampler, Weights};
 
 /// Reads `[draw.state]`. The distance that table fog uses is not a state of the file: the projection decides it.
 pub(crate) fn state(mut section: Section<'_>, problems: &mut Problems) -> RenderState {
@@ -143,7 +143,7 @@ fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Ve
 }
 
 /// Reads how a texture is sampled: the address, filter and level keys of a stage.
-pub(crate) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
+pub(crate) fn sampler(s: &mut Section<'_>, weights: Weights, problems: &mut Problems) -> Sampler {
     let default = Sampler::default();
     let filter = s.node("filter").map(|node| filter_name(node, problems));
     let both = filter.unwrap_or_default();
@@ -190,6 +190,7 @@ pub(crate) fn sampler(s: &mut Section<'_>, problems: &mut Problems) -> Sampler {
         ) as u32,
         border: s.array_or("border", default.border, problems),
         seamless: s.or("seamless", default.seamless, problems),
+        weights,
     }
 }
 

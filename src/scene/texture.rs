@@ -7,10 +7,10 @@ use super::section::{At, Node, Section};
 use super::target::MAX_TARGET_SIDE;
 use crate::diagnostic::Span;
 use crate::texture::load::{
-    cube_from_cross, cube_from_equirectangular, cube_from_faces, decode_dds, decode_image,
+    cube_from_cross, cube_from_equirectangular, cube_from_faces, decode_dds_signed, decode_image,
 };
 use crate::texture::{
-    Format, MAX_IRRADIANCE_EDGE, Texture, TextureError, TextureKind, words_to_bytes,
+    Format, MAX_IRRADIANCE_EDGE, Signed, Texture, TextureError, TextureKind, words_to_bytes,
 };
 
 /// The keys of which a texture has one: what it is made from.
@@ -73,7 +73,7 @@ pub(crate) fn read(
             made(cube_from_cross(cross), path.span, problems)
         }),
         ["equirectangular"] => equirectangular(s, files, problems),
-        [_] => inline(s, problems),
+        [_] => inline(s, files.signed(), problems),
         [] => {
             let sources = SOURCES.map(|key| format!("`{key}`")).join(", ");
             section.missing(&format!("one of {sources}"), problems);
@@ -119,7 +119,7 @@ pub(crate) fn made<T>(
 fn file(path: &At<String>, files: &Files<'_>, problems: &mut Problems) -> Option<Texture> {
     let bytes = files.read(path, problems)?;
     let result = if bytes.starts_with(b"DDS ") {
-        decode_dds(&bytes)
+        decode_dds_signed(&bytes, files.signed())
     } else {
         decode_image(&bytes, extension(&path.value))
     };
@@ -194,7 +194,7 @@ fn equirectangular(
 }
 
 /// Texels or words in the scene file.
-fn inline(s: &mut Section<'_>, problems: &mut Problems) -> Option<Texture> {
+fn inline(s: &mut Section<'_>, signed: Signed, problems: &mut Problems) -> Option<Texture> {
     let span = s.span;
     let kind = s.named("kind", TextureKind::Texture2D, problems);
     let format = s.named("format", Format::Rgba8, problems);
@@ -221,7 +221,7 @@ fn inline(s: &mut Section<'_>, problems: &mut Problems) -> Option<Texture> {
             .map(|level| level.into_iter().map(texel).collect())
             .collect();
         return made(
-            Texture::from_texels(kind, format, size?, &levels),
+            Texture::from_texels_signed(kind, format, size?, &levels, signed),
             span,
             problems,
         );
@@ -233,7 +233,7 @@ fn inline(s: &mut Section<'_>, problems: &mut Problems) -> Option<Texture> {
         .collect();
     let bytes = made(bytes, span, problems)?;
     made(
-        Texture::from_raw(kind, format, size?, &bytes),
+        Texture::from_raw_signed(kind, format, size?, &bytes, signed),
         span,
         problems,
     )

@@ -4,8 +4,8 @@
 //! arguments, so that an executor may call it for one invocation or in a loop over many lanes and get the same bits.
 //! Rust never contracts `a * b + c`, so the bits are the same on every target as well.
 //!
-//! Numbers are 32-bit floats. Two rules of the shader model hold everywhere: a product with a factor of zero is
-//! +0, whatever the other factor is ([`mul`]), and denormal results are flushed to zero ([`Finish`]).
+//! Numbers are 32-bit floats, of which a hardware model may allow fewer ([`held`], [`operand`]). Two rules of the shader model hold everywhere: a product with a factor of zero is
+//! +0, whatever the other factor is ([`mul`], unless [`product`] is told otherwise), and denormal results are flushed to zero ([`Finish`]).
 
 mod modify;
 mod scalar;
@@ -14,6 +14,6 @@ mod vector;
 #[cfg(test)]
 mod tests;
 
-pub use modify::{Finish, address, constant, modify};
+pub use modify::{Finish, address, constant, held, modify, operand};
 pub use scalar::*;
 pub use vector::*;

@@ -2,6 +2,7 @@
 
 use super::scalar::saturate;
 use crate::isa::{ResultModifier, SourceModifier};
+use crate::policy::Model;
 
 /// The value of an operand after its source modifier. The divide modifiers are steps of their own and change
 /// nothing here.
@@ -18,6 +19,40 @@ pub fn modify(modifier: SourceModifier, x: f32) -> f32 {
         SourceModifier::X2 => 2.0 * x,
         SourceModifier::X2Negate => -(2.0 * x),
     }
+}
+
+/// A number as the registers of a model hold it: clamped to the range and rounded to the nearest step, halves up. NaN,
+/// which fixed-point numbers do not have, becomes 0; so does −0. Floats are as they are.
+#[inline(always)]
+pub fn held(model: Model, x: f32) -> f32 {
+    let Some(steps) = model.steps() else { return x };
+    if x.is_nan() {
+        return 0.0;
+    }
+    let x = x.clamp(-model.most(), model.most());
+    // What lies on a step stays there: the product is off by less than half a step.
+    (x * steps + 0.5).floor() / steps
+}
+
+/// What an operation of a model reads of a register: the number as the model [holds](held) it, after its source modifier.
+///
+/// The combiners of the GeForce 3 clamp before they map: `1-x` is 1 − x of x in 0…1, `_bias` and `_bx2` take negative
+/// numbers for 0.
+#[inline(always)]
+pub fn operand(model: Model, modifier: SourceModifier, x: f32) -> f32 {
+    let x = held(model, x);
+    let x = match (model, modifier) {
+        (Model::Gf3, SourceModifier::Complement) => saturate(x),
+        (
+            Model::Gf3,
+            SourceModifier::Bias
+            | SourceModifier::BiasNegate
+            | SourceModifier::Bx2
+            | SourceModifier::Bx2Negate,
+        ) if x < 0.0 => 0.0,
+        _ => x,
+    };
+    modify(modifier, x)
 }
 
 /// A pixel shader constant as the shader sees it: clamped to −1…1, whether it was set or defined.

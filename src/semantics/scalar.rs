@@ -1,8 +1,6 @@
 //! Operations on single components.
 
-/// The number that stands for infinity in `rcp`, `rsq` and `log`: the largest finite one, so that a product with
-/// zero stays zero and a difference stays a number.
-pub const BIG: f32 = f32::MAX;
+use crate::policy::OfZero;
 
 /// s0 · s1; +0 if either factor is zero, even against infinity and NaN.
 ///
@@ -12,16 +10,23 @@ pub fn mul(a: f32, b: f32) -> f32 {
     if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }
 
+/// s0 · s1 as [`ZeroProduct`](crate::policy::ZeroProduct) says: that of IEEE 754, or [`mul`]. The functions below that have
+/// the same parameter make their products so.
+#[inline(always)]
+pub fn product<const IEEE: bool>(a: f32, b: f32) -> f32 {
+    if IEEE { a * b } else { mul(a, b) }
+}
+
 /// s0 · s1 + s2, rounded after the product.
 #[inline(always)]
-pub fn mad(a: f32, b: f32, c: f32) -> f32 {
-    mul(a, b) + c
+pub fn mad<const IEEE: bool>(a: f32, b: f32, c: f32) -> f32 {
+    product::<IEEE>(a, b) + c
 }
 
 /// s0 · s1 + (1 − s0) · s2: exact at both ends.
 #[inline(always)]
-pub fn lrp(a: f32, b: f32, c: f32) -> f32 {
-    mul(a, b) + mul(1.0 - a, c)
+pub fn lrp<const IEEE: bool>(a: f32, b: f32, c: f32) -> f32 {
+    product::<IEEE>(a, b) + product::<IEEE>(1.0 - a, c)
 }
 
 /// s0 < s1 ? s0 : s1; s1 where either is NaN.
@@ -72,17 +77,17 @@ fn is_zero(a: f32) -> bool {
     a.abs() < f32::MIN_POSITIVE
 }
 
-/// 1 / s0; [`BIG`] for either zero.
+/// 1 / s0; the number that the policy has for either zero.
 #[inline(always)]
-pub fn rcp(a: f32) -> f32 {
-    if is_zero(a) { BIG } else { 1.0 / a }
+pub fn rcp(of_zero: OfZero, a: f32) -> f32 {
+    if is_zero(a) { of_zero.value() } else { 1.0 / a }
 }
 
-/// 1 / √|s0|; [`BIG`] for zero.
+/// 1 / √|s0|; the number that the policy has for zero.
 #[inline(always)]
-pub fn rsq(a: f32) -> f32 {
+pub fn rsq(of_zero: OfZero, a: f32) -> f32 {
     if is_zero(a) {
-        BIG
+        of_zero.value()
     } else {
         1.0 / a.abs().sqrt()
     }
@@ -94,10 +99,14 @@ pub fn exp(a: f32) -> f32 {
     a.exp2()
 }
 
-/// log₂ |s0|; −[`BIG`] for zero.
+/// log₂ |s0|; for zero minus the number that the policy has.
 #[inline(always)]
-pub fn log(a: f32) -> f32 {
-    if is_zero(a) { -BIG } else { a.abs().log2() }
+pub fn log(of_zero: OfZero, a: f32) -> f32 {
+    if is_zero(a) {
+        -of_zero.value()
+    } else {
+        a.abs().log2()
+    }
 }
 
 /// x clamped to 0…1, NaN to 0.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::isa::{ResultModifier, SourceModifier};
+use crate::policy::{Model, OfZero};
 
 const INF: f32 = f32::INFINITY;
 const NAN: f32 = f32::NAN;
@@ -28,24 +29,52 @@ fn a_product_with_zero_is_zero() {
         same(mul(other, 0.0), 0.0);
     }
     same(mul(-2.0, 3.0), -6.0);
-    same(mad(0.0, INF, 5.0), 5.0);
+    same(mad::<false>(0.0, INF, 5.0), 5.0);
+}
+
+#[test]
+fn products_of_ieee_know_nan() {
+    same(product::<true>(0.0, INF), NAN);
+    same(product::<true>(-0.0, 3.0), -0.0);
+    same(mad::<true>(0.0, INF, 5.0), NAN);
+    same(lrp::<true>(1.0, 2.0, INF), NAN);
+    same(dp3::<true>([INF, 2.0, 0.0], [0.0, 3.0, 1.0]), NAN);
+    same(
+        dp4::<true>([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]),
+        88.0,
+    );
+    same4(
+        dst::<true>([0.0, INF, 2.0, 0.0], [0.0, 0.0, 0.0, 3.0]),
+        [1.0, NAN, 2.0, 3.0],
+    );
+    // 2 ^ (0 · ∞)
+    same(lit::<true>([1.0, INF, 0.0, 0.0])[2], NAN);
+}
+
+#[test]
+fn infinity_of_zero_where_it_is_asked_for() {
+    same(rcp(OfZero::Infinity, -0.0), INF);
+    same(rsq(OfZero::Infinity, 0.0), INF);
+    same(log(OfZero::Infinity, 1e-40), -INF);
+    same4(logp(OfZero::Infinity, 0.0), [-INF, 1.0, -INF, 1.0]);
+    same(rcp(OfZero::Infinity, 2.0), 0.5);
 }
 
 #[test]
 fn mad_rounds_the_product_first() {
     // (1 + 2^-12)² = 1 + 2^-11 + 2^-24: the last term is lost when the product is rounded, kept when it is fused.
     let a = 1.0 + 2f32.powi(-12);
-    same(mad(a, a, -1.0), 2f32.powi(-11));
+    same(mad::<false>(a, a, -1.0), 2f32.powi(-11));
 }
 
 #[test]
 fn lrp_is_exact_at_both_ends() {
-    same(lrp(0.0, 1e30, 0.3), 0.3);
-    same(lrp(1.0, 0.3, 1e30), 0.3);
+    same(lrp::<false>(0.0, 1e30, 0.3), 0.3);
+    same(lrp::<false>(1.0, 0.3, 1e30), 0.3);
     // 0.25·8 + 0.75·4 = 5
-    same(lrp(0.25, 8.0, 4.0), 5.0);
+    same(lrp::<false>(0.25, 8.0, 4.0), 5.0);
     // Outside of 0…1 it extrapolates: 2·3 + (−1)·1 = 5
-    same(lrp(2.0, 3.0, 1.0), 5.0);
+    same(lrp::<false>(2.0, 3.0, 1.0), 5.0);
 }
 
 #[test]
@@ -78,25 +107,25 @@ fn frc_counts_from_below() {
 
 #[test]
 fn reciprocals() {
-    same(rcp(1.0), 1.0);
-    same(rcp(-4.0), -0.25);
-    same(rcp(0.0), f32::MAX);
-    same(rcp(-0.0), f32::MAX);
-    same(rcp(-INF), -0.0);
-    same(rsq(-1.0), 1.0);
-    same(rsq(16.0), 0.25);
-    same(rsq(0.0), f32::MAX);
-    same(rsq(INF), 0.0);
+    same(rcp(OfZero::Largest, 1.0), 1.0);
+    same(rcp(OfZero::Largest, -4.0), -0.25);
+    same(rcp(OfZero::Largest, 0.0), f32::MAX);
+    same(rcp(OfZero::Largest, -0.0), f32::MAX);
+    same(rcp(OfZero::Largest, -INF), -0.0);
+    same(rsq(OfZero::Largest, -1.0), 1.0);
+    same(rsq(OfZero::Largest, 16.0), 0.25);
+    same(rsq(OfZero::Largest, 0.0), f32::MAX);
+    same(rsq(OfZero::Largest, INF), 0.0);
     // What listings rely on: zero times the reciprocal of zero is zero.
-    same(mul(0.0, rcp(0.0)), 0.0);
+    same(mul(0.0, rcp(OfZero::Largest, 0.0)), 0.0);
 }
 
 #[test]
 fn exponentials_and_logarithms() {
     same(exp(3.0), 8.0);
     same(exp(-INF), 0.0);
-    same(log(-8.0), 3.0);
-    same(log(0.0), -f32::MAX);
+    same(log(OfZero::Largest, -8.0), 3.0);
+    same(log(OfZero::Largest, 0.0), -f32::MAX);
     // 2.5: 2^2, 0.5, 2^2.5 = 5.656854 without its eight lowest bits, 1
     let full = 2f32.powf(2.5).to_bits() & 0xFFFF_FF00;
     same4(expp(2.5), [4.0, 0.5, f32::from_bits(full), 1.0]);
@@ -114,49 +143,58 @@ fn exponentials_and_logarithms() {
     same4(expp(NAN), [NAN, NAN, NAN, 1.0]);
     // −12 = −1.5 · 2^3; log2 12 = 3.5849625 without its eight lowest bits
     let full = 12f32.log2().to_bits() & 0xFFFF_FF00;
-    same4(logp(-12.0), [3.0, 1.5, f32::from_bits(full), 1.0]);
-    same4(logp(0.0), [-f32::MAX, 1.0, -f32::MAX, 1.0]);
-    same4(logp(1e-40), [-f32::MAX, 1.0, -f32::MAX, 1.0]);
-    same4(logp(-INF), [INF, 1.0, INF, 1.0]);
-    same4(logp(NAN), [NAN, NAN, NAN, 1.0]);
+    same4(
+        logp(OfZero::Largest, -12.0),
+        [3.0, 1.5, f32::from_bits(full), 1.0],
+    );
+    same4(logp(OfZero::Largest, 0.0), [-f32::MAX, 1.0, -f32::MAX, 1.0]);
+    same4(
+        logp(OfZero::Largest, 1e-40),
+        [-f32::MAX, 1.0, -f32::MAX, 1.0],
+    );
+    same4(logp(OfZero::Largest, -INF), [INF, 1.0, INF, 1.0]);
+    same4(logp(OfZero::Largest, NAN), [NAN, NAN, NAN, 1.0]);
 }
 
 #[test]
 fn dots_sum_from_the_left() {
     // 1·4 + 2·5 + 3·6 = 32, + 7·8 = 88
-    same(dp3([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), 32.0);
-    same(dp4([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]), 88.0);
+    same(dp3::<false>([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), 32.0);
+    same(
+        dp4::<false>([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]),
+        88.0,
+    );
     // (1e8 − 1e8) + 1 = 1, while 1e8 + (−1e8 + 1) would be 0 in 32 bits.
-    same(dp3([1e8, -1e8, 1.0], [1.0, 1.0, 1.0]), 1.0);
-    same(dp3([INF, 2.0, 0.0], [0.0, 3.0, NAN]), 6.0);
+    same(dp3::<false>([1e8, -1e8, 1.0], [1.0, 1.0, 1.0]), 1.0);
+    same(dp3::<false>([INF, 2.0, 0.0], [0.0, 3.0, NAN]), 6.0);
 }
 
 #[test]
 fn distance_vector() {
     // d = 4: (–, 16, 16, –) and (–, 1/4, –, 1/4) give (1, 4, 16, 1/4).
     same4(
-        dst([NAN, 16.0, 16.0, NAN], [NAN, 0.25, NAN, 0.25]),
+        dst::<false>([NAN, 16.0, 16.0, NAN], [NAN, 0.25, NAN, 0.25]),
         [1.0, 4.0, 16.0, 0.25],
     );
     same4(
-        dst([0.0, INF, INF, 0.0], [0.0, 0.0, 0.0, NAN]),
+        dst::<false>([0.0, INF, INF, 0.0], [0.0, 0.0, 0.0, NAN]),
         [1.0, 0.0, INF, NAN],
     );
 }
 
 #[test]
 fn lighting_coefficients() {
-    same4(lit([0.5, 0.25, 9.0, 2.0]), [1.0, 0.5, 0.0625, 1.0]);
-    same4(lit([-0.5, 0.25, 0.0, 2.0]), [1.0, 0.0, 0.0, 1.0]);
-    same4(lit([0.5, -0.25, 0.0, 2.0]), [1.0, 0.5, 0.0, 1.0]);
-    same4(lit([0.5, 0.25, 0.0, 0.0]), [1.0, 0.5, 1.0, 1.0]);
-    same4(lit([0.0, 0.0, 0.0, 0.0]), [1.0, 0.0, 0.0, 1.0]);
-    same4(lit([0.5, 0.25, 0.0, NAN]), [1.0, 0.5, 1.0, 1.0]);
-    same4(lit([INF, INF, 0.0, 3.0]), [1.0, INF, INF, 1.0]);
-    same4(lit([NAN, 1.0, 0.0, 1.0]), [1.0, 0.0, 0.0, 1.0]);
+    same4(lit::<false>([0.5, 0.25, 9.0, 2.0]), [1.0, 0.5, 0.0625, 1.0]);
+    same4(lit::<false>([-0.5, 0.25, 0.0, 2.0]), [1.0, 0.0, 0.0, 1.0]);
+    same4(lit::<false>([0.5, -0.25, 0.0, 2.0]), [1.0, 0.5, 0.0, 1.0]);
+    same4(lit::<false>([0.5, 0.25, 0.0, 0.0]), [1.0, 0.5, 1.0, 1.0]);
+    same4(lit::<false>([0.0, 0.0, 0.0, 0.0]), [1.0, 0.0, 0.0, 1.0]);
+    same4(lit::<false>([0.5, 0.25, 0.0, NAN]), [1.0, 0.5, 1.0, 1.0]);
+    same4(lit::<false>([INF, INF, 0.0, 3.0]), [1.0, INF, INF, 1.0]);
+    same4(lit::<false>([NAN, 1.0, 0.0, 1.0]), [1.0, 0.0, 0.0, 1.0]);
     // The power is clamped to 127.9961: 2^127.9961 is finite, 2^1000 is not.
-    assert!(lit([1.0, 2.0, 0.0, 1000.0])[2].is_finite());
-    assert!(lit([1.0, 2.0, 0.0, 1000.0])[2] > 3e38);
+    assert!(lit::<false>([1.0, 2.0, 0.0, 1000.0])[2].is_finite());
+    assert!(lit::<false>([1.0, 2.0, 0.0, 1000.0])[2] > 3e38);
 }
 
 #[test]
@@ -186,7 +224,14 @@ fn luminance_scales_and_offsets() {
         ..Default::default()
     };
     // 0.8 · (1 · 0.5 + 0.25) = 0.6
-    assert!((luminance(0.8, 1.0, &state) - 0.6).abs() < 1e-7);
+    assert!((luminance(Model::Float, 0.8, 1.0, &state) - 0.6).abs() < 1e-7);
+    // A factor of 1 · 2 + 0.25 is clamped by the combiners: 0.8 · 1.
+    let state = BumpState {
+        luminance_scale: 2.0,
+        ..state
+    };
+    same(luminance(Model::Gf3, 0.8, 1.0, &state), 0.8);
+    assert!((luminance(Model::R200, 0.8, 1.0, &state) - 1.8).abs() < 1e-6);
 }
 
 #[test]
@@ -238,6 +283,64 @@ fn source_modifiers() {
     }
     // The float model does not clamp first: 2·(−1 − 0.5) = −3.
     same(modify(SourceModifier::Bx2, -1.0), -3.0);
+}
+
+/// Expected numbers: the rows of the specification's table of profiles, by hand.
+#[test]
+fn models_clamp_and_round() {
+    // 64.25/255 is nearest to 64/255, −64.25/255 to −64/255; halves go up.
+    same(held(Model::Gf3, 64.25 / 255.0), 64.0 / 255.0);
+    same(held(Model::Gf3, -64.25 / 255.0), -64.0 / 255.0);
+    same(held(Model::Gf3, 0.5), 128.0 / 255.0);
+    same(held(Model::Gf3, -0.5), -127.0 / 255.0);
+    // The lowest code, −256/255, lies below −1.
+    same(held(Model::Gf3, -1.0039), -1.0);
+    same(held(Model::Gf3, INF), 1.0);
+    same(held(Model::Gf3, NAN), 0.0);
+    same(held(Model::Gf3, -0.0), 0.0);
+    same(held(Model::R200, 9.0), 8.0);
+    same(held(Model::R200, -INF), -8.0);
+    // 0.3 · 4096 = 1228.8
+    same(held(Model::R200, 0.3), 1229.0 / 4096.0);
+    same(held(Model::R200, 1e-4), 0.0);
+    for x in [0.3, -7.0, INF, -0.0] {
+        same(held(Model::Float, x), x);
+    }
+}
+
+#[test]
+fn what_lies_on_a_step_stays_there() {
+    for (model, steps, most) in [(Model::Gf3, 255, 255), (Model::R200, 4096, 8 * 4096)] {
+        for code in -most..=most {
+            let x = code as f32 / steps as f32;
+            same(held(model, x), x);
+        }
+    }
+}
+
+/// The mappings of the combiners, by hand from their formulas.
+#[test]
+fn combiners_clamp_before_they_map() {
+    use SourceModifier::*;
+    for (modifier, x, expected) in [
+        // 1 − max(0, −0.502) = 1; 1 − 51/255 = 0.8
+        (Complement, -0.5, 1.0),
+        (Complement, 0.2, 0.8),
+        // 2 · max(0, −1) − 1 = −1, where floats have −3
+        (Bx2, -1.0, -1.0),
+        (Bx2Negate, -1.0, 1.0),
+        (Bx2, 1.0, 1.0),
+        (Bias, -1.0, -0.5),
+        (BiasNegate, -1.0, 0.5),
+        (Negate, 2.0, -1.0),
+        (None, 2.0, 1.0),
+    ] {
+        same(operand(Model::Gf3, modifier, x), expected);
+    }
+    // The Radeon 8500 maps as it stands: 2 · (−1 − 0.5) = −3.
+    same(operand(Model::R200, Bx2, -1.0), -3.0);
+    same(operand(Model::R200, Complement, -0.5), 1.5);
+    same(operand(Model::Float, Complement, -0.5), 1.5);
 }
 
 #[test]

@@ -1,23 +1,26 @@
 //! Operations that look at several components at once.
 
-use super::scalar::{BIG, exp, log, mul, partial_precision};
+use super::scalar::{exp, log, mul, partial_precision, product, saturate};
+use crate::policy::{Model, OfZero};
 
 /// s0.x·s1.x + s0.y·s1.y + s0.z·s1.z, summed from left to right.
 #[inline(always)]
-pub fn dp3(a: [f32; 3], b: [f32; 3]) -> f32 {
-    mul(a[0], b[0]) + mul(a[1], b[1]) + mul(a[2], b[2])
+pub fn dp3<const IEEE: bool>(a: [f32; 3], b: [f32; 3]) -> f32 {
+    let p = |i: usize| product::<IEEE>(a[i], b[i]);
+    p(0) + p(1) + p(2)
 }
 
 /// [`dp3`] plus s0.w·s1.w.
 #[inline(always)]
-pub fn dp4(a: [f32; 4], b: [f32; 4]) -> f32 {
-    mul(a[0], b[0]) + mul(a[1], b[1]) + mul(a[2], b[2]) + mul(a[3], b[3])
+pub fn dp4<const IEEE: bool>(a: [f32; 4], b: [f32; 4]) -> f32 {
+    let p = |i: usize| product::<IEEE>(a[i], b[i]);
+    p(0) + p(1) + p(2) + p(3)
 }
 
 /// (1, s0.y·s1.y, s0.z, s1.w): from (–, d², d², –) and (–, 1/d, –, 1/d) the attenuation terms (1, d, d², 1/d).
 #[inline(always)]
-pub fn dst(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
-    [1.0, mul(a[1], b[1]), a[2], b[3]]
+pub fn dst<const IEEE: bool>(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+    [1.0, product::<IEEE>(a[1], b[1]), a[2], b[3]]
 }
 
 /// The bound of the exponent of [`lit`]: 128 − 1/256.
@@ -26,7 +29,7 @@ const LIT_POWER: f32 = 127.996_09;
 /// Diffuse and specular coefficients: (1, x, y^w, 1) for positive x = N·L, y = N·H and the power w, clamped to
 /// ±127.9961. y is 0 unless x is positive, z unless both are; a power that is NaN counts as 0.
 #[inline(always)]
-pub fn lit(a: [f32; 4]) -> [f32; 4] {
+pub fn lit<const IEEE: bool>(a: [f32; 4]) -> [f32; 4] {
     let [x, y, _, w] = a;
     let power = if w.is_nan() {
         0.0
@@ -34,7 +37,8 @@ pub fn lit(a: [f32; 4]) -> [f32; 4] {
         w.clamp(-LIT_POWER, LIT_POWER)
     };
     let lit = x > 0.0;
-    let specular = exp(mul(power, log(y)));
+    // Of 0 the logarithm does not matter.
+    let specular = exp(product::<IEEE>(power, log(OfZero::Largest, y)));
     [
         1.0,
         if lit { x } else { 0.0 },
@@ -53,15 +57,16 @@ pub fn expp(x: f32) -> [f32; 4] {
 
 /// The partial results of `logp` for v = |x|: (exponent, mantissa in 1…2, log₂ v in partial precision, 1).
 ///
-/// Zero (and denormal) v: (−BIG, 1, −BIG, 1). Infinite v: (∞, 1, ∞, 1).
+/// Zero (and denormal) v: (−n, 1, −n, 1), n the number that the policy has. Infinite v: (∞, 1, ∞, 1).
 #[inline(always)]
-pub fn logp(x: f32) -> [f32; 4] {
+pub fn logp(of_zero: OfZero, x: f32) -> [f32; 4] {
     let v = x.abs();
     if v.is_nan() {
         return [v, v, v, 1.0];
     }
     if v < f32::MIN_POSITIVE {
-        return [-BIG, 1.0, -BIG, 1.0];
+        let least = -of_zero.value();
+        return [least, 1.0, least, 1.0];
     }
     if v.is_infinite() {
         return [v, 1.0, v, 1.0];
@@ -69,18 +74,23 @@ pub fn logp(x: f32) -> [f32; 4] {
     let bits = v.to_bits();
     let exponent = (bits >> 23) as i32 - 127;
     let mantissa = f32::from_bits((bits & 0x007F_FFFF) | 0x3F80_0000);
-    [exponent as f32, mantissa, partial_precision(log(v)), 1.0]
+    [
+        exponent as f32,
+        mantissa,
+        partial_precision(log(of_zero, v)),
+        1.0,
+    ]
 }
 
 /// The vector `e` mirrored at the normal `n`, which need not have unit length: 2·(n·e)/(n·n)·n − e; −e where n is
 /// zero.
 #[inline(always)]
 pub fn reflect(n: [f32; 3], e: [f32; 3]) -> [f32; 3] {
-    let square = dp3(n, n);
+    let square = dp3::<false>(n, n);
     let scale = if square == 0.0 {
         0.0
     } else {
-        2.0 * dp3(n, e) / square
+        2.0 * dp3::<false>(n, e) / square
     };
     [
         mul(scale, n[0]) - e[0],
@@ -111,11 +121,13 @@ pub fn bump(s0: [f32; 2], s1: [f32; 2], state: &BumpState) -> [f32; 2] {
     ]
 }
 
-/// s0 · (luminance · scale + offset): what `texbeml` does to every component of its sample.
+/// s0 · (luminance · scale + offset): what `texbeml` does to every component of its sample. Combiners clamp the factor to
+/// 0…1.
 #[inline(always)]
-pub fn luminance(s0: f32, luminance: f32, state: &BumpState) -> f32 {
-    mul(
-        s0,
-        mul(luminance, state.luminance_scale) + state.luminance_offset,
-    )
+pub fn luminance(model: Model, s0: f32, luminance: f32, state: &BumpState) -> f32 {
+    let factor = mul(luminance, state.luminance_scale) + state.luminance_offset;
+    match model {
+        Model::Gf3 => mul(s0, saturate(factor)),
+        Model::Float | Model::R200 => mul(s0, factor),
+    }
 }

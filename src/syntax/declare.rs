@@ -110,6 +110,14 @@ impl Parser<'_> {
             if ends {
                 break;
             }
+            if self.is_register(self.peek()) {
+                let message = format!("{} is no number", self.quoted(self.peek()));
+                let help = "`def` takes 4 numbers; registers are joined by instructions";
+                self.error(&model::O25, self.span(self.peek()), message, help);
+                whole = false;
+                self.at = self.line_end(self.at + 1);
+                break;
+            }
             match self.number() {
                 Some(value) => values.push(value),
                 None => {

@@ -23,10 +23,7 @@ const LONGEST: usize = 48;
 /// The result is laid out itself: a second time changes nothing. What is read from it is what was read before.
 pub fn format(text: &[u8]) -> Vec<u8> {
     // What stands behind the text stays.
-    let end = text
-        .iter()
-        .rposition(|b| *b != 0)
-        .map_or(0, |last| last + 1);
+    let end = scan::without_nul(text).len();
     let (listing, behind) = text.split_at_checked(end).unwrap_or((text, &[]));
     let (mark, listing) = match listing.strip_prefix(b"\xEF\xBB\xBF") {
         Some(rest) => (&b"\xEF\xBB\xBF"[..], rest),

@@ -7,6 +7,7 @@ use super::parser::Parser;
 use super::rules;
 use crate::diagnostic::Diagnostic;
 use crate::isa::RegisterFile;
+use crate::rules::model;
 
 /// A sum with one more term; out of range of any register it stays out of range.
 fn added(sum: i64, number: u32, minus: bool) -> i64 {
@@ -29,12 +30,14 @@ impl Parser<'_> {
             match term.kind {
                 Kind::Number => match self.word(term).parse::<u32>() {
                     Ok(number) => sum = added(sum, number, minus.is_some()),
-                    Err(_) => break Some("is no whole number that an index can have"),
+                    Err(_) => {
+                        break Some((&rules::INDEX, "is no whole number that an index can have"));
+                    }
                 },
                 Kind::Word
                     if minus.is_some() && names::whole_numbers(self.word(term)).is_empty() =>
                 {
-                    break Some("is subtracted: only numbers can be");
+                    break Some((&rules::INDEX, "is subtracted: only numbers can be"));
                 }
                 Kind::Word => match names::register(self.word(term), self.version) {
                     found @ (Found::Exact(Name::Register(RegisterFile::Addr, 0))
@@ -45,11 +48,11 @@ impl Parser<'_> {
                         }
                         let (dot, letter) = (self.peek(), self.token(self.at + 1));
                         if dot.kind != Kind::Dot || !self.word(letter).eq_ignore_ascii_case("x") {
-                            break Some("must be `a0.x`");
+                            break Some((&model::O6, "must be `a0.x`"));
                         }
                         self.at += 2;
                         if relative {
-                            break Some("stands twice in one index");
+                            break Some((&rules::INDEX, "stands twice in one index"));
                         }
                         relative = true;
                     }
@@ -59,7 +62,8 @@ impl Parser<'_> {
                         return;
                     }
                     _ => match &names::whole_numbers(self.word(term))[..] {
-                        [] => break Some("is neither a whole number nor `a0.x`"),
+                        [] if self.is_register(term) => break Some((&model::O6, "must be `a0.x`")),
+                        [] => break Some((&rules::INDEX, "is neither a whole number nor `a0.x`")),
                         [only] => {
                             let message = format!("{} is no number", self.quoted(term));
                             self.misread(&rules::INDEX, self.span(term), message, only);
@@ -73,8 +77,8 @@ impl Parser<'_> {
                         }
                     },
                 },
-                Kind::Close => break Some("closes an index without a number"),
-                _ => break Some("stands where a number or `a0.x` should"),
+                Kind::Close => break Some((&rules::INDEX, "closes an index without a number")),
+                _ => break Some((&rules::INDEX, "stands where a number or `a0.x` should")),
             }
             let next = self.peek();
             match next.kind {
@@ -87,6 +91,14 @@ impl Parser<'_> {
                     minus = None;
                 }
                 Kind::Minus | Kind::Dash => minus = Some(self.bump()),
+                _ if self.index_goes_on() => {
+                    let message = format!("{} stands where `+` or `]` should", self.quoted(next));
+                    let help = "an index is a sum of whole numbers and at most one a0.x";
+                    self.error(&rules::INDEX, self.span_of(open, next), message, help);
+                    operand.damaged = true;
+                    self.skip_index();
+                    return;
+                }
                 _ => {
                     let message = "this index has no `]`";
                     let help = "write `]` behind the index";
@@ -96,11 +108,11 @@ impl Parser<'_> {
                 }
             }
         };
-        if let Some(problem) = problem {
+        if let Some((rule, problem)) = problem {
             let term = self.previous();
             let message = format!("{} {problem}", self.quoted(term));
             let help = "an index is written like c[12], c[a0.x + 12] or c12[a0.x]";
-            self.error(&rules::INDEX, self.span_of(open, term), message, help);
+            self.error(rule, self.span_of(open, term), message, help);
             operand.damaged = true;
             if term.kind != Kind::Close {
                 self.skip_index();
@@ -117,6 +129,15 @@ impl Parser<'_> {
             self.report(Diagnostic::error(&rules::INDEX, span, message));
             operand.damaged = true;
         }
+    }
+
+    /// Whether a `]` stands near in this line, in front of the next operand.
+    fn index_goes_on(&self) -> bool {
+        const NEAR: usize = 16;
+        (self.at..self.at + NEAR)
+            .map(|at| self.token(at))
+            .take_while(|t| !t.first && !matches!(t.kind, Kind::Comma | Kind::Open | Kind::End))
+            .any(|t| t.kind == Kind::Close)
     }
 
     /// Behind the `]`, if the line has one.

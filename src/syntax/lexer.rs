@@ -195,8 +195,8 @@ impl<'a> Lexer<'a, '_> {
                     rest = after;
                 }
                 [b'#', ..] if first => rest = self.directive(rest),
-                // A no-break space.
-                [0xC2, 0xA0, after @ ..] => rest = after,
+                // A no-break space, in UTF-8 and in the code pages of the time.
+                [0xC2, 0xA0, after @ ..] | [0xA0, after @ ..] => rest = after,
                 [blank, ..] if is_blank(*blank) => {
                     rest = blanks(rest).map_or(&[], |(after, _)| after);
                 }

@@ -11,6 +11,7 @@ mod confuse;
 mod declare;
 mod fix;
 mod format;
+mod guess;
 mod index;
 mod lexer;
 mod list;
@@ -32,13 +33,15 @@ pub(crate) use confuse::distance;
 pub use fix::apply_fixes;
 pub use format::format;
 pub(crate) use format::format_block;
+pub(crate) use guess::{is_listing, is_source, later_model, no_shader};
 pub(crate) use names::foreign_mnemonic;
 pub use printer::{print, print_instruction};
-pub(crate) use prologue::{begins_with_version, not_text};
+pub(crate) use prologue::{begins_with_version, is_utf16, not_text};
 pub use unread::unread;
 
-use crate::diagnostic::{Diagnostic, SourceFile, Span};
+use crate::diagnostic::{Diagnostic, SourceFile, Span, TooLarge};
 use crate::isa::Version;
+use crate::preprocess::scan::without_nul;
 use crate::program::{Program, Register, Statement};
 use crate::rules::text as rules;
 use parser::Parser;
@@ -78,6 +81,11 @@ pub struct Damage {
     pub destination: Option<Register>,
 }
 
+/// What is said of a text that is too long for a listing. It is not among the sources, so it has no place.
+pub(crate) fn too_long(error: &TooLarge) -> Diagnostic {
+    Diagnostic::error(&rules::NOT_A_LISTING, Span::default(), error.to_string())
+}
+
 /// Reads a listing that begins with its version.
 ///
 /// Never fails: whatever cannot be read is a diagnostic, all of them at once. Time and memory are linear in the length
@@ -90,12 +98,7 @@ pub fn parse(file: &SourceFile) -> Parsed {
 pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
     let base = file.span().start;
     let bytes = file.bytes();
-    // Some listings were cut out of programs with the NUL behind them.
-    let end = bytes
-        .iter()
-        .rposition(|b| *b != 0)
-        .map_or(0, |last| last + 1);
-    let text = bytes.get(..end).unwrap_or(bytes);
+    let text = without_nul(bytes);
     let mut reports = Reports::default();
     if let Some((what, help)) = prologue::not_text(text) {
         let message = format!("this is no listing but {what}");

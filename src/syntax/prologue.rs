@@ -8,6 +8,7 @@ use super::report::quote;
 use super::rules;
 use crate::diagnostic::{Diagnostic, Fix, Span};
 use crate::isa::{RegisterFile, ShaderKind, Version};
+use crate::preprocess::scan::without_nul;
 use crate::rules::model;
 
 /// Where the version was found.
@@ -100,6 +101,8 @@ impl Parser<'_> {
                 }
                 *reported = true;
                 self.skip_line();
+                // It will stand somewhere behind the version.
+                self.damage(self.span_from(first), None);
             }
         }
         self.at = version;
@@ -227,9 +230,19 @@ pub(crate) fn begins_with_version(text: &[u8]) -> bool {
     }
 }
 
+/// Whether bytes are text of two bytes a character: by its mark, or by what its first characters are.
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+    let text = |b: u8| b.is_ascii_graphic() || b.is_ascii_whitespace();
+    match *bytes {
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => true,
+        [a, 0, b, 0, ..] | [0, a, 0, b, ..] => text(a) && text(b),
+        _ => false,
+    }
+}
+
 /// Says what a text is that is no text.
 pub(crate) fn not_text(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
-    const KNOWN: [(&[u8], &str, &str); 9] = [
+    const KNOWN: [(&[u8], &str, &str); 7] = [
         (b"\x89PNG", "a PNG picture", ""),
         (b"\xFF\xD8\xFF", "a JPEG picture", ""),
         (b"GIF8", "a GIF picture", ""),
@@ -237,17 +250,10 @@ pub(crate) fn not_text(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"PK\x03\x04", "a ZIP archive", "unpack it first"),
         (b"\x7FELF", "a program", ""),
         (b"MZ", "a program", ""),
-        (
-            b"\xFF\xFE",
-            "text in UTF-16",
-            "save it as plain text or UTF-8",
-        ),
-        (
-            b"\xFE\xFF",
-            "text in UTF-16",
-            "save it as plain text or UTF-8",
-        ),
     ];
+    if is_utf16(bytes) {
+        return Some(("text in UTF-16", "save it as plain text or UTF-8"));
+    }
     // The token of a version: 0xFFFE01mm or 0xFFFF01mm, lowest byte first.
     if let [minor, major, 0xFE | 0xFF, 0xFF, ..] = bytes
         && *minor < 16
@@ -264,6 +270,7 @@ pub(crate) fn not_text(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     {
         return Some((what, help));
     }
+    let bytes = without_nul(bytes);
     let head = bytes.get(..1024).unwrap_or(bytes);
     head.contains(&0).then_some(("binary data", ""))
 }

@@ -88,6 +88,10 @@ impl Parser<'_> {
         let (stem, _) = self.stem(token);
         let next = self.token(self.at + 1);
         let alone = next.first;
+        // Disassemblers leave such lines behind.
+        if self.word(token).eq_ignore_ascii_case("debug") && !co_issue {
+            return self.skip_line();
+        }
         if self.lost_space(token, co_issue) {
             return;
         }

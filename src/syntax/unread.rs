@@ -100,7 +100,9 @@ impl Walk {
         let Some(shape) = form.destination else {
             return;
         };
-        if !shape.written {
+        let register = destination.register;
+        let exists = register.index < register.file.count(self.version);
+        if !shape.written || !shape.files.contains(register.file) || !exists {
             return;
         }
         self.write(destination.register, destination.mask);

@@ -5,12 +5,42 @@ use std::str::FromStr;
 
 use super::{TextureError, UnknownName};
 
+/// What the codes of signed channels stand for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Signed {
+    /// max(code / (2^(bits−1) − 1), −1): from −1 to 1, with a code for each of them.
+    #[default]
+    Symmetric,
+    /// code / 2^(bits−1): from −1 to a little less than 1, as on the GeForce 3.
+    Lopsided,
+}
+
+impl Signed {
+    /// What the codes of so many bits are divided by.
+    fn divisor(self, bits: u32) -> f32 {
+        match self {
+            Self::Symmetric => snorm_max(bits),
+            Self::Lopsided => snorm_max(bits) + 1.0,
+        }
+    }
+
+    fn decode(self, code: i32, bits: u32) -> f32 {
+        (code as f32 / self.divisor(bits)).max(-1.0)
+    }
+
+    /// The nearest code. Symmetric codes leave the lowest one out.
+    fn encode(self, value: f32, bits: u32) -> i32 {
+        let code = (value.clamp(-1.0, 1.0) * self.divisor(bits)).round() as i32;
+        code.min(snorm_max(bits) as i32)
+    }
+}
+
 /// Where one of the r, g, b, a that a shader reads comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Channel {
     /// `bits` bits from bit `shift` on, unsigned: code / (2^bits − 1).
     Unorm { shift: u32, bits: u32 },
-    /// The same, two's complement: max(code / (2^(bits−1) − 1), −1).
+    /// The same, two's complement, as [`Signed`] says.
     Snorm { shift: u32, bits: u32 },
     /// Not stored: reads as 0.
     Zero,
@@ -200,9 +230,11 @@ impl Format {
 
     /// The value nearest to `texel` that the format holds, as a shader reads it. Formats without fixed steps
     /// (floats) return it unchanged; DXT, which has no steps of a single texel, rounds to 1/255.
-    pub(super) fn quantize(self, texel: [f32; 4]) -> [f32; 4] {
+    pub(super) fn quantize(self, texel: [f32; 4], signed: Signed) -> [f32; 4] {
         match self.layout() {
-            Layout::Word { channels, .. } => decode_word(encode_word(texel, &channels), &channels),
+            Layout::Word { channels, .. } => {
+                decode_word(encode_word(texel, &channels, signed), &channels, signed)
+            }
             Layout::Float => texel,
             Layout::Block { .. } => unpack8(pack8(texel)).map(|code| code / 255.0),
         }
@@ -256,12 +288,12 @@ fn snorm_max(bits: u32) -> f32 {
     mask(bits - 1) as f32
 }
 
-pub(super) fn decode_word(word: u32, channels: &[Channel; 4]) -> [f32; 4] {
+pub(super) fn decode_word(word: u32, channels: &[Channel; 4], signed: Signed) -> [f32; 4] {
     let mut texel = channels.map(|channel| match channel {
         Channel::Unorm { shift, bits } => (word >> shift & mask(bits)) as f32 / mask(bits) as f32,
         Channel::Snorm { shift, bits } => {
             let code = (word << (32 - shift - bits)) as i32 >> (32 - bits);
-            (code as f32 / snorm_max(bits)).max(-1.0)
+            signed.decode(code, bits)
         }
         Channel::Zero | Channel::UnitZ => 0.0,
         Channel::One => 1.0,
@@ -280,13 +312,13 @@ fn fill_unit_z(texel: &mut [f32; 4], channels: &[Channel; 4]) {
 }
 
 /// The nearest word. Where several channels share a field (luminance), red is the one that is stored.
-pub(super) fn encode_word(texel: [f32; 4], channels: &[Channel; 4]) -> u32 {
+pub(super) fn encode_word(texel: [f32; 4], channels: &[Channel; 4], signed: Signed) -> u32 {
     let mut word = 0;
     for (value, channel) in texel.into_iter().zip(channels).rev() {
         let (shift, bits, code) = match *channel {
             Channel::Unorm { shift, bits } => (shift, bits, unorm_code(value, bits)),
             Channel::Snorm { shift, bits } => {
-                let code = (value.clamp(-1.0, 1.0) * snorm_max(bits)).round() as i32;
+                let code = signed.encode(value, bits);
                 (shift, bits, code as u32 & mask(bits))
             }
             Channel::Zero | Channel::One | Channel::UnitZ => continue,
@@ -325,7 +357,7 @@ mod tests {
 
     fn read(format: Format, word: u32) -> [f32; 4] {
         match format.layout() {
-            Layout::Word { channels, .. } => decode_word(word, &channels),
+            Layout::Word { channels, .. } => decode_word(word, &channels, Signed::Symmetric),
             _ => panic!("{format} has no words"),
         }
     }
@@ -430,25 +462,49 @@ mod tests {
         assert_eq!(read(Format::V8U8, 0x8081), [-1.0, -1.0, 1.0, 1.0]);
     }
 
+    /// Codes divided by 2^(bits−1), as the specification says of the GeForce 3.
+    #[test]
+    fn lopsided_codes_reach_minus_one_but_not_one() {
+        let read = |format: Format, word| match format.layout() {
+            Layout::Word { channels, .. } => decode_word(word, &channels, Signed::Lopsided),
+            _ => panic!("{format} has no words"),
+        };
+        assert_eq!(read(Format::V8U8, 0x7f80), [-1.0, 127.0 / 128.0, 1.0, 1.0]);
+        assert_eq!(
+            read(Format::V16U16, 0x7fff_c000),
+            [-0.5, 32767.0 / 32768.0, 1.0, 1.0]
+        );
+        // Luminance stays unsigned: 63/63.
+        assert_eq!(
+            read(Format::L6V5U5, 63 << 10 | 0x10 << 5 | 15),
+            [15.0 / 16.0, -1.0, 1.0, 1.0]
+        );
+        // Nearest to 1 is the largest code; −1 has one of its own.
+        assert_eq!(
+            Format::V8U8.quantize([1.0, -1.0, 0.0, 0.0], Signed::Lopsided),
+            [127.0 / 128.0, -1.0, 1.0, 1.0]
+        );
+    }
+
     #[test]
     fn numbers_are_rounded_to_what_the_format_holds() {
         // 0.5·255 = 127.5 rounds to 128; 0.5·127 = 63.5 rounds to 64 (away from zero on both sides).
         assert_eq!(
-            Format::Rgba8.quantize([0.5, 2.0, -1.0, f32::NAN]),
+            Format::Rgba8.quantize([0.5, 2.0, -1.0, f32::NAN], Signed::Symmetric),
             [128.0 / 255.0, 1.0, 0.0, 0.0]
         );
         assert_eq!(
-            Format::V8U8.quantize([0.5, -0.5, 0.3, 0.3]),
+            Format::V8U8.quantize([0.5, -0.5, 0.3, 0.3], Signed::Symmetric),
             [64.0 / 127.0, -64.0 / 127.0, 1.0, 1.0]
         );
         // Luminance takes red.
         assert_eq!(
-            Format::A8L8.quantize([1.0, 0.0, 0.5, 0.0]),
+            Format::A8L8.quantize([1.0, 0.0, 0.5, 0.0], Signed::Symmetric),
             [1.0, 1.0, 1.0, 0.0]
         );
         // 0.5·31 = 15.5 → 16, 0.5·63 = 31.5 → 32.
         assert_eq!(
-            Format::R5G6B5.quantize([0.5, 0.5, 0.0, 0.0]),
+            Format::R5G6B5.quantize([0.5, 0.5, 0.0, 0.0], Signed::Symmetric),
             [16.0 / 31.0, 32.0 / 63.0, 0.0, 1.0]
         );
     }
@@ -461,12 +517,15 @@ mod tests {
             };
             for seed in 0..2000u32 {
                 let word = seed.wrapping_mul(0x9e37_79b9) & mask(bytes * 8);
-                let once = decode_word(word, &channels);
-                assert_eq!(
-                    decode_word(encode_word(once, &channels), &channels),
-                    once,
-                    "{format} {word:#x}"
-                );
+                for signed in [Signed::Symmetric, Signed::Lopsided] {
+                    let once = decode_word(word, &channels, signed);
+                    let again = encode_word(once, &channels, signed);
+                    assert_eq!(
+                        decode_word(again, &channels, signed),
+                        once,
+                        "{format} {word:#x}"
+                    );
+                }
             }
         }
     }

@@ -71,6 +71,7 @@ impl Texture {
     /// [`TextureError::TooLarge`] when the further levels do not fit; the texture is then unchanged.
     pub fn generate_mips(&mut self) -> Result<(), TextureError> {
         let (size, faces, format) = (self.size(), self.face_count(), self.format);
+        let signed = self.signed;
         let count = full_level_count(size) as usize;
         let layout = lay_out(self.kind, format, size, count)?;
         let base_len = self.levels[0].face_len * faces;
@@ -100,7 +101,7 @@ impl Texture {
                     let mut next = Vec::with_capacity(added);
                     let fetch = |index: usize| texels[index];
                     reduce(source, target, faces, fetch, |mean| {
-                        next.push(format.quantize(mean))
+                        next.push(format.quantize(mean, signed))
                     });
                     texels.append(&mut next);
                 }

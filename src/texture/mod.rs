@@ -17,8 +17,8 @@ mod storage;
 
 pub use cube::{CUBE_FACES, FaceAxes, SignedAxis, direction_to_face, face_to_direction};
 pub use error::TextureError;
-pub use format::{Format, words_to_bytes};
+pub use format::{Format, Signed, words_to_bytes};
 pub use irradiance::MAX_IRRADIANCE_EDGE;
 pub use sample::{Footprint, Tap, footprint, levels_of_detail, sample_at, sample_quads};
-pub use sampler::{AddressMode, Filter, MipFilter, Sampler, UnknownName};
+pub use sampler::{AddressMode, Filter, MipFilter, Sampler, UnknownName, Weights};
 pub use storage::{MAX_BYTES, MAX_EDGE, Texture, TextureKind};

@@ -39,9 +39,14 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Gives an enum its names: parsing (any case), printing.
+/// Gives an enum its names: parsing (any case), printing, the list of its members.
 macro_rules! names {
     ($type:ty, $what:literal, $($variant:ident $name:literal),*) => {
+        impl $type {
+            /// Every member, in the order of the Direct3D numbers.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
+        }
+
         impl std::str::FromStr for $type {
             type Err = $crate::texture::UnknownName;
 
@@ -105,6 +110,16 @@ pub enum MipFilter {
 }
 names!(MipFilter, "mip filter", None "none", Point "point", Linear "linear");
 
+/// How exact the weights of linear filters are, those between mip levels included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Weights {
+    /// 32-bit floats.
+    #[default]
+    Full,
+    /// Steps of 1/256, the nearest, halves up: what hardware of the time had.
+    EightBits,
+}
+
 /// How a texture is read. The default is Direct3D 8's: wrap, point, point, no mip levels, border 0, 0, 0, 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sampler {
@@ -124,6 +139,8 @@ pub struct Sampler {
     pub border: [f32; 4],
     /// Whether filters on a cube reach across edges. Direct3D 8 parts stayed inside the face: false.
     pub seamless: bool,
+    /// How exact the weights of linear filters are.
+    pub weights: Weights,
 }
 
 #[cfg(test)]

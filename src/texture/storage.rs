@@ -1,7 +1,7 @@
 //! The texture itself: kind, size, levels, and the texels in one block of memory.
 
 use super::format::{Layout, decode_word, pack8, unpack8};
-use super::{Format, TextureError};
+use super::{Format, Signed, TextureError};
 
 /// The longest edge of a texture, in texels.
 pub const MAX_EDGE: u32 = 16384;
@@ -70,6 +70,7 @@ impl Store for FloatStore<'_> {
 pub struct Texture {
     pub(super) kind: TextureKind,
     pub(super) format: Format,
+    pub(super) signed: Signed,
     pub(super) levels: Vec<Level>,
     pub(super) texels: Texels,
 }
@@ -188,6 +189,20 @@ impl Texture {
         size: [u32; 3],
         levels: &[L],
     ) -> Result<Self, TextureError> {
+        Self::from_texels_signed(kind, format, size, levels, Signed::default())
+    }
+
+    /// As [`Texture::from_texels`], of what signed channels hold when their codes stand for these numbers.
+    ///
+    /// # Errors
+    /// As [`Texture::from_texels`].
+    pub fn from_texels_signed<L: AsRef<[[f32; 4]]>>(
+        kind: TextureKind,
+        format: Format,
+        size: [u32; 3],
+        levels: &[L],
+        signed: Signed,
+    ) -> Result<Self, TextureError> {
         if format.is_compressed() {
             return Err(TextureError::CannotCompress(format));
         }
@@ -201,11 +216,12 @@ impl Texture {
         let count = levels.iter().map(|list| list.as_ref().len()).sum();
         let mut texels = Texels::with_capacity(format, count);
         for &texel in levels.iter().flat_map(|list| list.as_ref()) {
-            texels.push(format.quantize(texel));
+            texels.push(format.quantize(texel, signed));
         }
         Ok(Self {
             kind,
             format,
+            signed,
             levels: layout,
             texels,
         })
@@ -223,6 +239,20 @@ impl Texture {
         format: Format,
         size: [u32; 3],
         levels: &[L],
+    ) -> Result<Self, TextureError> {
+        Self::from_raw_signed(kind, format, size, levels, Signed::default())
+    }
+
+    /// As [`Texture::from_raw`], with what the codes of signed channels stand for.
+    ///
+    /// # Errors
+    /// As [`Texture::from_raw`].
+    pub fn from_raw_signed<L: AsRef<[u8]>>(
+        kind: TextureKind,
+        format: Format,
+        size: [u32; 3],
+        levels: &[L],
+        signed: Signed,
     ) -> Result<Self, TextureError> {
         let layout = lay_out(kind, format, size, levels.len())?;
         let faces = kind.face_count() as u64;
@@ -246,7 +276,7 @@ impl Texture {
                     for texel in bytes.chunks_exact(size as usize) {
                         let mut word = [0; 4];
                         word[..texel.len()].copy_from_slice(texel);
-                        texels.push(decode_word(u32::from_le_bytes(word), &channels));
+                        texels.push(decode_word(u32::from_le_bytes(word), &channels, signed));
                     }
                 }
                 Layout::Float => {
@@ -267,6 +297,7 @@ impl Texture {
         Ok(Self {
             kind,
             format,
+            signed,
             levels: layout,
             texels,
         })

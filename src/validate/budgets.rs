@@ -23,17 +23,27 @@ pub(super) fn slots(listing: &Listing) -> [Slots; 2] {
     sums
 }
 
-fn phase_index(group: &[Line]) -> usize {
+pub(super) fn phase_index(group: &[Line]) -> usize {
     group.first().map_or(1, |line| line.phase as usize)
 }
 
 /// Slots of what runs at once: both halves of a pair share theirs.
-fn cost(group: &[Line]) -> Slots {
+pub(super) fn cost(group: &[Line]) -> Slots {
     let forms = group.iter().filter_map(|line| line.form);
     forms.fold(Slots::default(), |cost, form| Slots {
         arithmetic: cost.arithmetic.max(form.arithmetic_slots),
         texture: cost.texture.max(form.texture_slots),
     })
+}
+
+/// Arithmetic slots of these lines if they run one by one.
+pub(super) fn slots_apart(lines: &[Line]) -> u32 {
+    lines.chunks(1).map(|line| cost(line).arithmetic).sum()
+}
+
+/// Arithmetic slots of these lines if they run at once.
+pub(super) fn slots_joined(lines: &[Line]) -> u32 {
+    cost(lines).arithmetic
 }
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {

@@ -93,6 +93,7 @@ fn reads(
 ) {
     for read in listing.reads(line) {
         if read.register.file != RegisterFile::Temp
+            || read.register.relative
             || !listing.exists(read.register)
             || listing.hides_write(read.register, read.span)
         {
@@ -221,6 +222,10 @@ fn dependent_read(
 
 fn writes(line: &Line, temporaries: &mut [Temporary; TEMPORARIES]) {
     if line.instruction.opcode == Opcode::Phase && line.form.is_some() {
+        // Of a second phase instruction B10 speaks.
+        if line.phase == Phase::Second {
+            return;
+        }
         temporaries.iter_mut().for_each(Temporary::pass_phase);
         return;
     }
@@ -258,6 +263,9 @@ fn result_is_written(listing: &Listing, r0: &Temporary, report: &mut Report) {
     }
     let lost = r0.lost_to_phase.or(r0.lost_to_texcrd).or(r0.lost_to_depth);
     if r0.written.or(lost).is_empty() {
+        if listing.misdirects() {
+            return;
+        }
         report.breach(
             Code::S6,
             span,

@@ -7,7 +7,7 @@ use crate::isa::{
     Class, Form, Opcode, RegisterFile, ShaderKind, SourceModifier, Version, VersionSet, WriteMask,
 };
 use crate::program::{Destination, Instruction, Program, Register};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A part of a `ps.1.4` shader. A shader without `phase` is all second phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,8 @@ pub(super) struct Line<'p> {
     pub(super) joined: bool,
     /// Where its reads begin and end among those of the listing.
     reads: (usize, usize),
+    /// Whether it is half of a pair, the first or the second.
+    pub(super) paired: bool,
 }
 
 /// A register that an instruction reads.
@@ -49,6 +51,8 @@ pub(super) struct Listing<'p> {
     pub(super) has_phase: bool,
     /// What the lines read, one after the other.
     reads: Vec<Read>,
+    /// The `t#` that something in `ps.1.4` is written to, which cannot be.
+    pub(super) written_coordinates: HashSet<Register>,
     unread: Unread,
 }
 
@@ -93,20 +97,31 @@ impl<'p> Listing<'p> {
                 phase,
                 joined: false,
                 reads: (reads.len(), 0),
+                paired: false,
             };
             line.add_reads(&mut reads);
             line.reads.1 = reads.len();
             line.joined = instruction.co_issue
                 && line.can_pair()
                 && lines.last().is_some_and(|l| l.can_pair() && !l.joined);
+            line.paired = line.joined;
+            if let (true, Some(first)) = (line.joined, lines.last_mut()) {
+                first.paired = true;
+            }
             lines.push(line);
             if is_phase(instruction) {
                 phase = Phase::Second;
             }
         }
+        let destinations = lines
+            .iter()
+            .filter(|l| version == Version::Ps14 && l.instruction.opcode != Opcode::TexKill);
+        let destinations = destinations.filter_map(|l| Some(l.instruction.destination?.register));
+        let written_coordinates = destinations.filter(|r| r.file == RegisterFile::Texture);
         Self {
             program,
             version,
+            written_coordinates: written_coordinates.collect(),
             lines,
             has_phase,
             reads,
@@ -170,6 +185,19 @@ impl<'p> Listing<'p> {
         let starts = &self.unread.starts;
         let next = starts.get(starts.partition_point(|start| *start < from.start));
         next.is_some_and(|start| *start <= to.start)
+    }
+
+    /// Whether an instruction writes to a register that it cannot write to: its result was meant for another.
+    pub(super) fn misdirects(&self) -> bool {
+        self.known().any(|(line, form)| {
+            let shape = form.destination.filter(|shape| shape.written);
+            shape
+                .zip(line.instruction.destination)
+                .is_some_and(|(shape, destination)| {
+                    let register = destination.register;
+                    !shape.files.contains(register.file) || !self.exists(register)
+                })
+        })
     }
 
     /// Whether the version has this register.
@@ -262,6 +290,8 @@ impl Line<'_> {
             Opcode::TexCrd if self.divides() => destination.mask.and(WriteMask::XY),
             Opcode::TexCrd => destination.mask.and(WriteMask::XYZ),
             _ if form.rows > 0 => destination.mask.and(first(form.rows)),
+            // They have no mask; M13 speaks of one that is written.
+            _ if form.class == Class::Texture => WriteMask::ALL,
             _ => destination.mask,
         };
         Some((destination.register, mask))

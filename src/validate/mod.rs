@@ -1,7 +1,7 @@
 //! The rules of the runtime: what a shader may not hold, and why.
 //!
 //! A rule is a function in the file of its group; the facts it compares with are rows of [`crate::isa`]. How
-//! severe a breach is in which [`Dialect`] stands in one table, in `laws`. Every breach is found in one pass over
+//! severe a breach is in which [`Dialect`] stands in one table, in [`crate::rules`]. Every breach is found in one pass over
 //! the program, and one fault is named once, where it shows first.
 
 mod budgets;
@@ -15,17 +15,26 @@ mod report;
 mod stages;
 mod statistics;
 mod structure;
+mod unset;
+mod uses;
 
 #[cfg(test)]
 mod tests;
 
-pub use statistics::{FileUsage, PhaseSlots, Statistics, Usage, statistics};
+pub use statistics::{
+    Coordinates, FileUsage, FullPorts, PhaseSlots, PossiblePair, SlotUse, Stage, Statistics, Usage,
+    slots, statistics,
+};
+pub use unset::unset_constants;
+pub use uses::{Use, UseKind, origins, uses};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
 use crate::program::{Program, Register};
+use crate::rules::model;
 use listing::Listing;
 use report::Report;
+use std::collections::HashSet;
 
 /// Judges a program by the rules of a dialect. Returns every breach, by position, but of one rule no more than 100,
 /// so that a file that is no shader does not drown in them.
@@ -33,6 +42,29 @@ use report::Report;
 /// The time is linear in the length of the program. A program without an error can be lowered and run.
 pub fn validate(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
     validate_around(program, dialect, &[])
+}
+
+/// Judges only what the assembler itself refused, whether it was asked to validate or not: registers that are written and
+/// that the version does not have (O1), and `+` in a vertex shader (C1). What else it never took is no text of a program.
+pub fn assembles(program: &Program) -> Vec<Diagnostic> {
+    let missing = |r: Register| r.index >= r.file.count(program.version);
+    let mut operands: HashSet<Span> = HashSet::new();
+    for instruction in program.instructions() {
+        let destination = instruction.destination.iter();
+        let destination = destination.map(|d| (d.register, d.span));
+        let sources = instruction.sources.iter().map(|s| (s.register, s.span));
+        let all = destination.chain(sources);
+        operands.extend(all.filter(|(r, _)| missing(*r)).map(|(_, span)| span));
+    }
+    let declared = program.declarations().filter(|d| missing(d.register));
+    operands.extend(declared.map(|d| d.span));
+    let mut found = validate(program, Dialect::D3d8);
+    // The rows of a matrix that are not written are the validator's.
+    found.retain(|d| match d.rule.id {
+        id if id == model::O1.id => operands.contains(&d.span),
+        id => id == model::C1.id,
+    });
+    found
 }
 
 /// Judges a program of which some statements could not be read.

@@ -119,6 +119,8 @@ fn write_mask(listing: &Listing, line: &Line, form: &Form, report: &mut Report) 
     let code = match (line.instruction.opcode, form.class) {
         (Opcode::Bem | Opcode::TexCrd, _) => return,
         (_, Class::Texture) => Code::M13,
+        // Of one in a pair C6 speaks.
+        (Opcode::Dp3, _) if line.paired && destination.mask.has(3) => return,
         (Opcode::Dp3, _) => Code::M8,
         (Opcode::Cnd, _) => Code::O16,
         _ => Code::M7,
@@ -199,7 +201,7 @@ fn source_modifier(
 }
 
 fn divides(modifier: SourceModifier) -> bool {
-    matches!(modifier, SourceModifier::Dz | SourceModifier::Dw)
+    modifier.row().divides.is_some()
 }
 
 /// What a texture instruction takes instead.

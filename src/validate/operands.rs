@@ -17,6 +17,15 @@ use crate::rules::model::Code;
 const MOST_VERTEX_CONSTANTS: u32 = 256;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
+    if listing.has_texture_stages() {
+        // Of what goes beyond the number of stages B2 speaks.
+        let slots = listing.version.row().texture_slots as usize;
+        let beyond = listing.lines.iter().filter(|l| l.is_texture()).skip(slots);
+        for destination in beyond.filter_map(|l| l.instruction.destination) {
+            report.misses(destination.register);
+        }
+    }
+    first_bem(listing, report);
     for def in listing.program.definitions() {
         let register = def.register;
         if register.file != RegisterFile::Const || register.relative {
@@ -28,6 +37,19 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
             );
         } else {
             register_exists(listing, register, def.register_span, Code::O25, report);
+        }
+    }
+    for declaration in listing.program.declarations() {
+        let (register, span) = (declaration.register, declaration.span);
+        if register.file != RegisterFile::Input {
+            report.breach(
+                Code::O1,
+                span,
+                format!("{} has no input {register}", listing.version),
+                "dcl declares v#",
+            );
+        } else {
+            register_exists(listing, register, span, Code::O1, report);
         }
     }
     for (line, form) in listing.known() {
@@ -55,7 +77,10 @@ fn register_exists(
     }
     let version = listing.version;
     let count = register.file.count(version);
-    if register.file == RegisterFile::Addr && version == Version::Vs10 {
+    if !report.misses(register) {
+        return false;
+    }
+    if register.file == RegisterFile::Addr && register.index == 0 && version == Version::Vs10 {
         report.breach(
             Code::O4,
             span,
@@ -84,6 +109,7 @@ fn register_exists(
     }
     let help = match count {
         0 => format!("{} has {}", version, files_of(version)),
+        1 => format!("{version} has {}", register.file.register_name(0)),
         _ => format!(
             "{version} has {} to {}",
             register.file.register_name(0),
@@ -124,8 +150,12 @@ fn check_destination(
         return;
     }
     let opcode = line.instruction.opcode;
-    // Of an a0 that no version could have here O5 tells more than O4.
-    let misplaced = register.file == RegisterFile::Addr && opcode != Opcode::Mov;
+    // Of an a0 that no version could have here O5 tells more than O4, and of a constant O2 more than O26.
+    let misplaced = match register.file {
+        RegisterFile::Addr => opcode != Opcode::Mov,
+        RegisterFile::Const => true,
+        _ => false,
+    };
     if !misplaced && !register_exists(listing, register, span, Code::O1, report) {
         return;
     }
@@ -206,13 +236,17 @@ fn check_source(
     {
         return;
     }
-    if is_condition_of_cnd(listing.version, line, i) {
+    // Of a register that cannot be read at all O3 tells more than O15, which a dialect may take.
+    if is_condition_of_cnd(listing.version, line, i) && register.file != RegisterFile::Addr {
         return; // O15 says what stands there.
     }
     if !shape.files.contains(register.file) {
         let (code, help) = wrong_source(listing, form, opcode, register.file);
         if code == Code::O9 && line.phase == Phase::Second {
             return; // A bem in the second phase; O18 says so.
+        }
+        if code == Code::O8 && listing.written_coordinates.contains(&register) {
+            return; // What should have written it is at fault.
         }
         let message = match code {
             Code::O3 => format!("{register} can be written, not read"),
@@ -245,7 +279,10 @@ fn relative_source(listing: &Listing, source: &Source, report: &mut Report) -> b
     } else {
         return true;
     };
-    report.breach(code, source.span, message, help);
+    let address = Register::new(RegisterFile::Addr, 0);
+    if code != Code::O4 || report.misses(address) {
+        report.breach(code, source.span, message, help);
+    }
     false
 }
 
@@ -387,7 +424,9 @@ fn condition(listing: &Listing, line: &Line, report: &mut Report) {
     let is_r0_a = source.register == Register::new(RegisterFile::Temp, 0)
         && source.swizzle == Swizzle::replicate(3)
         && source.modifier == SourceModifier::None;
-    if is_condition_of_cnd(listing.version, line, 0) && !is_r0_a {
+    // O3 refuses a0.
+    let readable = source.register.file != RegisterFile::Addr;
+    if is_condition_of_cnd(listing.version, line, 0) && readable && !is_r0_a {
         report.breach(
             Code::O15,
             source.span,
@@ -419,7 +458,7 @@ fn cmp_destination(listing: &Listing, line: &Line, report: &mut Report) {
     }
 }
 
-/// O18.
+/// O18 on the mask.
 fn bem(listing: &Listing, line: &Line, report: &mut Report) {
     let Some(destination) = line.instruction.destination else {
         return;
@@ -431,7 +470,18 @@ fn bem(listing: &Listing, line: &Line, report: &mut Report) {
             format!("bem writes .rg, not {}", listing.mask(destination.mask)),
             format!("write {}.rg", destination.register),
         );
-    } else if line.phase == Phase::Second {
+    }
+}
+
+/// O18 on the phase; of a second bem B8 speaks.
+fn first_bem(listing: &Listing, report: &mut Report) {
+    let is_bem = |(line, _): &(&Line, &Form)| line.instruction.opcode == Opcode::Bem;
+    let Some((line, _)) = listing.known().find(is_bem) else {
+        return;
+    };
+    let destination = line.instruction.destination;
+    let mask_fits = destination.is_none_or(|d| d.mask == WriteMask::XY);
+    if line.phase == Phase::Second && mask_fits {
         let help = if listing.has_phase {
             "move it up before phase"
         } else {

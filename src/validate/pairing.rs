@@ -1,6 +1,7 @@
 //! C1 to C7: instructions that run together.
 
-use super::listing::{Line, Listing};
+use super::listing::{Line, Listing, Read};
+use super::ports;
 use super::report::Report;
 use crate::isa::opcode::Pairing;
 use crate::isa::{Version, WriteMask};
@@ -96,19 +97,10 @@ fn not_joined(listing: &Listing, previous: Option<&Line>, line: &Line, report: &
 fn halves_may_pair(listing: &Listing, first: &Line, second: &Line, report: &mut Report) -> bool {
     let mut may = true;
     for half in [first, second] {
-        let Some(form) = half.form else {
-            return false;
-        };
-        let mask = half.instruction.destination.map(|d| d.mask);
-        let message = match form.pairing {
-            Pairing::Never => format!("{} cannot be half of a pair", half.mnemonic()),
-            Pairing::Color if mask.is_some_and(|m| m.has(3)) => {
-                format!(
-                    "{} writes alpha; in a pair it writes colour",
-                    half.mnemonic()
-                )
-            }
-            _ => continue,
+        let message = match (half.form, why_alone(half)) {
+            (None, _) => return false,
+            (_, None) => continue,
+            (_, Some(message)) => message,
         };
         may = false;
         report.breach(
@@ -121,6 +113,61 @@ fn halves_may_pair(listing: &Listing, first: &Line, second: &Line, report: &mut 
     may
 }
 
+/// Why an arithmetic instruction is no half of a pair.
+fn why_alone(half: &Line) -> Option<String> {
+    let mask = half.instruction.destination.map(|d| d.mask);
+    match half.form?.pairing {
+        Pairing::Never => Some(format!("{} cannot be half of a pair", half.mnemonic())),
+        Pairing::Color if mask.is_some_and(|m| m.has(3)) => Some(format!(
+            "{} writes alpha; in a pair it writes colour",
+            half.mnemonic()
+        )),
+        _ => None,
+    }
+}
+
+/// Whether two instructions that follow each other, and are in no pair, could be one that computes the same.
+pub(super) fn could_pair(listing: &Listing, first: &Line, second: &Line) -> bool {
+    let halves = [first, second];
+    let may = |half: &&Line| half.is_arithmetic() && !half.paired && why_alone(half).is_none();
+    let destinations = (
+        first.instruction.destination,
+        second.instruction.destination,
+    );
+    let (true, (Some(a), Some(b))) = (listing.is_pixel() && halves.iter().all(may), destinations)
+    else {
+        return false;
+    };
+    // Both halves read before either writes.
+    let waits = first.writes().is_some_and(|(register, mask)| {
+        let reads = listing.reads(second);
+        let waits = |r: &Read| r.register == register && !r.components.and(mask).is_empty();
+        reads.iter().any(waits)
+    });
+    !waits
+        && masks_fit(first, a.mask)
+        && masks_fit(second, b.mask)
+        && are_apart(listing.version, a.mask, b.mask)
+        && (listing.version != Version::Ps10 || a.register == b.register)
+        && ports::pair_is_within(listing, first, second)
+}
+
+/// Whether an instruction may write such a mask on its own.
+fn masks_fit(line: &Line, mask: WriteMask) -> bool {
+    let shape = line.form.and_then(|form| form.destination);
+    shape.is_none_or(|shape| shape.masks.contains(mask))
+}
+
+/// Whether of two masks one is that of a colour half and the other that of an alpha half.
+fn are_apart(version: Version, a: WriteMask, b: WriteMask) -> bool {
+    let is_color = |m: WriteMask| match version {
+        Version::Ps14 => !m.has(3),
+        _ => m == WriteMask::XYZ,
+    };
+    let apart = |color: WriteMask, alpha: WriteMask| is_color(color) && alpha == WriteMask::W;
+    apart(a, b) || apart(b, a)
+}
+
 /// C3, C4.
 fn masks_are_apart(listing: &Listing, first: &Line, second: &Line, report: &mut Report) {
     let (Some(a), Some(b)) = (
@@ -129,12 +176,9 @@ fn masks_are_apart(listing: &Listing, first: &Line, second: &Line, report: &mut 
     ) else {
         return;
     };
-    let is_color = |m: WriteMask| match listing.version {
-        Version::Ps14 => !m.has(3),
-        _ => m == WriteMask::XYZ,
-    };
-    let apart = |color: WriteMask, alpha: WriteMask| is_color(color) && alpha == WriteMask::W;
-    if apart(a.mask, b.mask) || apart(b.mask, a.mask) {
+    // M7 speaks of a mask that the instruction does not have on its own.
+    let fit = masks_fit(first, a.mask) && masks_fit(second, b.mask);
+    if !fit || are_apart(listing.version, a.mask, b.mask) {
         return;
     }
     let (code, color) = match listing.version {

@@ -13,10 +13,11 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
     }
     stages_increase(listing, report);
     // A row that could not be read is no missing row.
-    if !listing.hides_texture_instructions() {
-        matrices_are_whole(listing, report);
-    }
-    contents_are_readable(listing, report);
+    let broken = match listing.hides_texture_instructions() {
+        true => [true; STAGES],
+        false => matrices_are_whole(listing, report),
+    };
+    contents_are_readable(listing, &broken, report);
 }
 
 /// The number of the `t#` that a texture instruction names as its destination, which is its stage.
@@ -27,7 +28,7 @@ fn stage(line: &Line) -> Option<u32> {
 
 /// T1, T2.
 fn stages_increase(listing: &Listing, report: &mut Report) {
-    let mut highest: Option<(u32, &Line)> = None;
+    let mut last: Option<(u32, &Line)> = None;
     let mut users: [Option<&Line>; STAGES] = [None; STAGES];
     // What goes beyond the number of stages is told by B2.
     let stages = listing.version.row().texture_slots as usize;
@@ -37,10 +38,18 @@ fn stages_increase(listing: &Listing, report: &mut Report) {
         };
         let user = users.get_mut(stage as usize);
         let same = user.and_then(|user| user.replace(line));
-        let Some((before, earlier)) = highest.filter(|(before, _)| stage <= *before) else {
-            highest = Some((stage, line));
+        // What is told of one is not told again of those behind it.
+        let last = last.replace((stage, line));
+        let Some((before, earlier)) = last.filter(|(before, _)| stage <= *before) else {
             continue;
         };
+        if listing
+            .reads(line)
+            .iter()
+            .any(|read| is_no_lower(read, stage))
+        {
+            continue; // T3 speaks of what it reads, which follows from the order.
+        }
         // texkill writes nothing; whether it takes part in the order is not written down.
         let kills = |l: &Line| l.instruction.opcode == Opcode::TexKill;
         let (code, message) = match same {
@@ -101,16 +110,37 @@ struct Open<'a> {
     /// The source of the first pad.
     source: Option<Register>,
     last: &'a Line<'a>,
+    /// Whether its first pad stands where another row was awaited, which was told.
+    told: bool,
 }
 
-/// T4, T5, T6, T7.
-fn matrices_are_whole(listing: &Listing, report: &mut Report) {
-    let mut open: Option<Open> = None;
-    for line in &listing.lines {
-        if line.is_arithmetic() {
-            if let Some(open) = open.take() {
-                left_open(&open, report);
+impl Open<'_> {
+    /// Marks the stages of its pads.
+    fn mark(&self, stages: &mut [bool; STAGES]) {
+        for pad in 0..self.pads {
+            let stage = self.stage.checked_sub(pad);
+            if let Some(stage) = stage.and_then(|s| stages.get_mut(s as usize)) {
+                *stage = true;
             }
+        }
+    }
+}
+
+/// T4, T5, T6, T7. Returns the stages whose pads belong to no whole matrix.
+fn matrices_are_whole(listing: &Listing, report: &mut Report) -> [bool; STAGES] {
+    let mut open: Option<Open> = None;
+    let mut broken = [false; STAGES];
+    // Rows of the matrix that was broken off last, of which the last one may still come.
+    let mut missed = None;
+    for line in &listing.lines {
+        if line.form.is_none() {
+            // An instruction of another version may have been the row that is awaited.
+            open.take().inspect(|open| open.mark(&mut broken));
+            continue;
+        }
+        if line.is_arithmetic() {
+            open.take()
+                .inspect(|open| left_open(open, &mut broken, report));
             continue;
         }
         let Some(stage) = stage(line) else { continue };
@@ -142,7 +172,8 @@ fn matrices_are_whole(listing: &Listing, report: &mut Report) {
                 // A pad that goes nowhere is one fault, whatever stands in the place of the row it waits for.
                 let told = before.is_some();
                 if let Some(before) = before {
-                    interrupted(&before, line, report);
+                    interrupted(&before, line, &mut broken, report);
+                    missed = Some(before.rows);
                 }
                 match row {
                     Some(Row::Pad(rows)) => {
@@ -152,17 +183,19 @@ fn matrices_are_whole(listing: &Listing, report: &mut Report) {
                             stage,
                             source,
                             last: line,
+                            told,
                         });
                     }
-                    Some(Row::Last(rows)) if !told => without_pads(line, rows, stage, report),
+                    Some(Row::Last(rows)) if !told && missed.take() != Some(rows) => {
+                        without_pads(line, rows, stage, report);
+                    }
                     _ => {}
                 }
             }
         }
     }
-    if let Some(open) = open {
-        left_open(&open, report);
-    }
+    open.inspect(|open| left_open(open, &mut broken, report));
+    broken
 }
 
 /// The rule on matrices of so many rows.
@@ -182,7 +215,11 @@ fn awaited(open: &Open) -> String {
     }
 }
 
-fn interrupted(open: &Open, line: &Line, report: &mut Report) {
+fn interrupted(open: &Open, line: &Line, broken: &mut [bool; STAGES], report: &mut Report) {
+    open.mark(broken);
+    if open.told {
+        return;
+    }
     let stage = line.instruction.destination.map(|d| d.register.to_string());
     report.breach(
         matrix_code(open.rows),
@@ -218,7 +255,11 @@ fn without_pads(line: &Line, rows: u32, stage: u32, report: &mut Report) {
     );
 }
 
-fn left_open(open: &Open, report: &mut Report) {
+fn left_open(open: &Open, broken: &mut [bool; STAGES], report: &mut Report) {
+    open.mark(broken);
+    if open.told {
+        return;
+    }
     report.breach(
         Code::T7,
         open.last.instruction.mnemonic_span,
@@ -235,6 +276,10 @@ fn sources_differ(open: &Open, line: &Line, report: &mut Report) {
     let (Some(source), Some(first)) = (line.instruction.sources.first(), open.source) else {
         return;
     };
+    let files = [source.register.file, first.file];
+    if files != [RegisterFile::Texture; 2] {
+        return; // O10 and O13 speak of other files.
+    }
     report.breach(
         Code::T6,
         source.span,
@@ -273,7 +318,7 @@ struct Content {
 const STAGES: usize = 8;
 
 /// T3, T8 to T12, I4.
-fn contents_are_readable(listing: &Listing, report: &mut Report) {
+fn contents_are_readable(listing: &Listing, broken: &[bool; STAGES], report: &mut Report) {
     let mut contents = [Content {
         origin: None,
         written: WriteMask::NONE,
@@ -300,16 +345,30 @@ fn contents_are_readable(listing: &Listing, report: &mut Report) {
             }
         }
         for line in group {
-            written(line, &mut contents);
+            written(line, broken, &mut contents);
         }
     }
+}
+
+/// Whether a register is that of a pad of the matrix that a line is a row of.
+fn is_own_pad(line: &Line, stage: u32, register: Register) -> bool {
+    let rows = match row(line.instruction.opcode) {
+        Some(Row::Pad(rows) | Row::Last(rows)) => rows,
+        None => 0,
+    };
+    register.index < stage && stage - register.index < rows
+}
+
+/// Whether a texture instruction of a stage reads a `t#` that cannot come before it.
+fn is_no_lower(read: &Read, stage: u32) -> bool {
+    read.register.file == RegisterFile::Texture && read.register.index >= stage
 }
 
 /// T3, T12, and what both kinds of reader share.
 fn texture_reads(line: &Line, stage: u32, read: &Read, content: &mut Content, report: &mut Report) {
     let (name, register, span) = (line.mnemonic(), read.register, read.span);
     let bumps = matches!(line.instruction.opcode, Opcode::TexBem | Opcode::TexBeml);
-    if register.index >= stage {
+    if is_no_lower(read, stage) {
         report.breach(
             Code::T3,
             span,
@@ -327,6 +386,8 @@ fn texture_reads(line: &Line, stage: u32, read: &Read, content: &mut Content, re
                 format!("put tex {register} before it"),
             );
         }
+    } else if content.origin == Some(Origin::Pad) && is_own_pad(line, stage, register) {
+        // T6 speaks of a row that reads what another row of its matrix has left.
     } else if !unreadable(span, register, content, report) {
         if content.origin == Some(Origin::Texture { dependent: true }) {
             report.breach(
@@ -420,7 +481,7 @@ fn read_after_bump(read: &Read, content: &mut Content, report: &mut Report) {
 }
 
 /// What a line leaves in its `t#`.
-fn written(line: &Line, contents: &mut [Content; STAGES]) {
+fn written(line: &Line, broken: &[bool; STAGES], contents: &mut [Content; STAGES]) {
     if let Some(stage) = stage(line)
         && let Some(content) = contents.get_mut(stage as usize)
     {
@@ -436,6 +497,8 @@ fn written(line: &Line, contents: &mut [Content; STAGES]) {
         };
         content.origin = Some(origin);
         content.written = written;
+        // Of the pad of a matrix that is not whole enough was said.
+        content.told |= origin == Origin::Pad && broken.get(stage as usize) == Some(&true);
         return;
     }
     if let Some((register, mask)) = line.writes()

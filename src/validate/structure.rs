@@ -21,6 +21,18 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
 
 /// S14, S5.
 fn instructions_exist(listing: &Listing, report: &mut Report) {
+    for declaration in listing
+        .program
+        .declarations()
+        .filter(|_| listing.is_pixel())
+    {
+        report.breach(
+            Code::S14,
+            declaration.span,
+            format!("{} has no dcl", listing.version),
+            format!("{} have it", Opcode::Dcl.versions()),
+        );
+    }
     for line in listing.lines.iter().filter(|l| l.form.is_none()) {
         let opcode = line.instruction.opcode;
         let code = if opcode == Opcode::Phase {
@@ -29,10 +41,13 @@ fn instructions_exist(listing: &Listing, report: &mut Report) {
             Code::S14
         };
         let known = opcode.versions();
+        let have = match known.iter().count() {
+            1 => "alone has",
+            _ => "have",
+        };
         let help = match instead_of(opcode, listing.version) {
-            Some(instead) => format!("{known} have it; {} has {instead}", listing.version),
-            None if opcode.versions().iter().count() == 1 => format!("only {known} has it"),
-            None => format!("{known} have it"),
+            Some(instead) => format!("{known} {have} it; {} has {instead}", listing.version),
+            None => format!("{known} {have} it"),
         };
         report.breach(
             code,
@@ -100,6 +115,8 @@ fn textures_come_first(listing: &Listing, report: &mut Report) {
         } else if line.is_arithmetic() {
             arithmetic = arithmetic.or(Some(line.mnemonic()));
             told = false;
+        } else if line.instruction.co_issue {
+            // C7 speaks of a texture instruction behind a +.
         } else if let (true, Some(first), false) = (line.is_texture(), arithmetic, told) {
             told = true;
             let (code, help) = match (listing.version, listing.has_phase, line.phase) {
@@ -150,6 +167,9 @@ fn position_is_written(listing: &Listing, report: &mut Report) {
         return;
     }
     let Some(last) = last else {
+        if listing.misdirects() {
+            return;
+        }
         report.breach(
             Code::S8,
             listing.program.version_span,

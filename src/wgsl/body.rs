@@ -6,7 +6,6 @@ use super::helper::Helpers;
 use super::layout::{Block, Field};
 use super::listing::Lines;
 use super::magnitude::{Magnitudes, Outcome};
-use super::number;
 use super::together;
 use super::{Observed, Options, ShownPixels, Stage};
 use crate::isa::operand::{RGBA, XYZW};
@@ -123,7 +122,7 @@ impl<'a> Body<'a> {
             options,
             block: Block::default(),
             helpers: Helpers::default(),
-            magnitudes: Magnitudes::new(kind, BTreeMap::new(), options),
+            magnitudes: Magnitudes::new(kernel, BTreeMap::new(), options),
             varying_widths,
             widths,
             read,
@@ -139,7 +138,7 @@ impl<'a> Body<'a> {
             .filter(|(index, _)| body.constant(*index) == Constant::Defined)
             .map(|(index, value)| (*index, bound_value(kind, *value)))
             .collect();
-        body.magnitudes = Magnitudes::new(kind, known, options);
+        body.magnitudes = Magnitudes::new(kernel, known, options);
         let uniform = |index: &u32| body.constant(*index) == Constant::Uniform;
         let named = kernel
             .constants()
@@ -332,7 +331,8 @@ impl<'a> Body<'a> {
             for color in (0..2).filter_map(Slot::input) {
                 if !self.read[color.index()].is_empty() {
                     let name = self.name(color);
-                    self.push(format_args!("let {name} = saturate(in.{name});"));
+                    let color = self.color(&name);
+                    self.push(format_args!("let {name} = {};", color.text));
                 }
             }
             let named: BTreeSet<u32> = (kernel.constants())
@@ -340,10 +340,9 @@ impl<'a> Body<'a> {
                 .filter(|index| self.constant(*index) == Constant::Uniform)
                 .collect();
             for index in named {
-                let c = self.uniform(Field::Constants);
-                self.push(format_args!(
-                    "let c{index} = clamp({c}[{index}], vec4f(-1.0), vec4f(1.0));"
-                ));
+                let field = self.uniform(Field::Constants);
+                let constant = self.uniform_constant(index, &field);
+                self.push(format_args!("let c{index} = {};", constant.text));
             }
         }
         for slot in Slot::all() {
@@ -383,10 +382,10 @@ impl<'a> Body<'a> {
     fn step(&mut self, step: &'a Step, pending: &mut Vec<Pending<'a>>) {
         if let Op::Kill = step.op {
             let asked = self.asks_for_kill();
-            let Some(operand) = step.sources.first().filter(|_| asked) else {
+            if !asked {
                 return;
-            };
-            let tested = self.operand(operand, WriteMask::XYZ).spread(3);
+            }
+            let tested = self.operand(step, 0, WriteMask::XYZ).spread(3);
             let before = if self.killing { "killed || " } else { "" };
             self.push(format_args!(
                 "killed = {before}any({} < vec3f());",
@@ -411,7 +410,8 @@ impl<'a> Body<'a> {
         });
         if step.held || overlaps {
             let outcome = self.magnitudes.outcome(step);
-            let value = self.value(step).finished(step.result).whole();
+            let value = self.value(step);
+            let value = self.finished(step, value).whole();
             let name = self.free_name(step);
             self.push(format_args!("let {name} = {};", value.text));
             let value = Value::Whole(Expression::new(name, value.width));
@@ -435,7 +435,8 @@ impl<'a> Body<'a> {
         match step.op {
             Op::Sample(stage) => self.sample(step, stage),
             _ => {
-                let value = self.value(step).finished(step.result);
+                let value = self.value(step);
+                let value = self.finished(step, value);
                 self.assign(step.destination, step.mask, value);
             }
         }
@@ -512,45 +513,6 @@ impl<'a> Body<'a> {
         }
         self.push("}");
     }
-
-    /// What an operand reads into the slots of the mask: a scalar if all of them read the same component.
-    pub(super) fn operand(&mut self, operand: &Operand, slots: WriteMask) -> Expression {
-        let components: Vec<usize> = slots
-            .components()
-            .map(|s| operand.swizzle.slot(s))
-            .collect();
-        let (name, width, letters) = match operand.place {
-            Place::Slot(slot) => (self.name(slot), self.width(slot), self.letters(slot)),
-            Place::Constant(index) => (self.constant_name(index), 4, self.constant_letters()),
-            Place::Relative(offset) => (self.relative_constant(offset), 4, XYZW),
-            Place::Literal(value) => {
-                let text = number::literal(value).unwrap_or_else(|| "0.0".into());
-                return Expression::new(text, 1).modified(operand.modifier);
-            }
-        };
-        select(name, width, &components, letters).modified(operand.modifier)
-    }
-}
-
-/// Components of a vector of `width` components: a scalar if they are all the same.
-pub(super) fn select(
-    mut name: String,
-    width: usize,
-    components: &[usize],
-    letters: [char; 4],
-) -> Expression {
-    if width == 1 {
-        return Expression::new(name, 1);
-    }
-    let first = components.first().copied().unwrap_or(0);
-    let same = components.iter().all(|c| *c == first);
-    if !same && components.iter().copied().eq(0..width) {
-        return Expression::new(name, components.len());
-    }
-    let named = if same { &[first] } else { components };
-    name.push('.');
-    name.extend(named.iter().map(|c| letters[*c]));
-    Expression::new(name, named.len())
 }
 
 /// The components that a step writes and that are not lost: of coordinates those that its instruction uses in the end,

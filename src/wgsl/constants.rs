@@ -77,9 +77,14 @@ impl Body<'_> {
             let where_it_is = "is in the uniform block: whoever fills that puts this value there.";
             return self.push(format!("// c{index} {where_it_is}"));
         }
-        let value = bound_value(self.kind(), def.value);
-        if value != def.value && !def.value.iter().any(|x| x.is_nan()) {
+        let bound = bound_value(self.kind(), def.value);
+        if bound != def.value && !def.value.iter().any(|x| x.is_nan()) {
             self.push("// Constants of pixel shaders are clamped to -1…1.");
+        }
+        let value = self.defined_value(index, def.value);
+        if value != bound && !bound.iter().any(|x| x.is_nan()) {
+            let model = self.stage.kernel.model;
+            self.push(format_args!("// As the registers of {model} hold them."));
         }
         let line = match number::vector(value) {
             // Two constants in one expression are computed by the compiler, which refuses results that overflow.

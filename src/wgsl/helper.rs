@@ -1,6 +1,7 @@
 //! The functions that a translation may need, as they stand in it.
 
 use super::number::{LARGEST, SMALLEST_NORMAL};
+use crate::policy::{Model, OfZero};
 use std::collections::BTreeSet;
 
 /// A function, or a family of functions that differ in their number of components. What another one calls stands
@@ -13,13 +14,14 @@ pub(super) enum Helper {
     Dot(usize),
     /// The same with [`Helper::MulZero`].
     DotZero(usize),
-    Rcp,
-    Rsq,
-    Log2,
+    Infinity,
+    Rcp(OfZero),
+    Rsq(OfZero),
+    Log2(OfZero),
     PartialPrecision,
     ExpP,
-    LogP,
-    Lit,
+    LogP(OfZero),
+    Lit(OfZero),
     Divide,
     Mirror,
     /// Relative addressing of this many constants.
@@ -28,12 +30,29 @@ pub(super) enum Helper {
     InsidePoint,
     CubeFace,
     OnFace,
-    SampleFaces,
-    SampleFacesBias,
-    SampleFacesLevelZero,
+    /// A cube whose faces are filtered one by one; `coarse`: with weights of 8 bits.
+    SampleFaces {
+        detail: Detail,
+        coarse: bool,
+    },
+    /// Where a filter in so many dimensions has weights of 8 bits.
+    OnStep(usize),
+    /// Numbers of a model, vectors with this many components.
+    Held(Model, usize),
     LinearFog,
     FogFactor,
     Address,
+}
+
+/// How the level of detail of a sample is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Detail {
+    /// From the coordinates.
+    Plain,
+    /// From the coordinates and a bias.
+    Bias,
+    /// It is level 0.
+    LevelZero,
 }
 
 impl Helper {
@@ -47,13 +66,14 @@ impl Helper {
             Self::MulZero(width) => counted("mul_zero", width),
             Self::Dot(width) => counted("dp", width),
             Self::DotZero(width) => format!("dp{width}_zero"),
-            Self::Rcp => "rcp".into(),
-            Self::Rsq => "rsq".into(),
-            Self::Log2 => "log2_abs".into(),
+            Self::Infinity => "infinity".into(),
+            Self::Rcp(_) => "rcp".into(),
+            Self::Rsq(_) => "rsq".into(),
+            Self::Log2(_) => "log2_abs".into(),
             Self::PartialPrecision => "partial_precision".into(),
             Self::ExpP => "expp".into(),
-            Self::LogP => "logp".into(),
-            Self::Lit => "lit".into(),
+            Self::LogP(_) => "logp".into(),
+            Self::Lit(_) => "lit".into(),
             Self::Divide => "divide".into(),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
@@ -61,9 +81,18 @@ impl Helper {
             Self::InsidePoint => "inside_point".into(),
             Self::CubeFace => "cube_face".into(),
             Self::OnFace => "on_face".into(),
-            Self::SampleFaces => "sample_faces".into(),
-            Self::SampleFacesBias => "sample_faces_bias".into(),
-            Self::SampleFacesLevelZero => "sample_faces_level_zero".into(),
+            Self::SampleFaces { detail, coarse } => {
+                let detail = match detail {
+                    Detail::Plain => "",
+                    Detail::Bias => "_bias",
+                    Detail::LevelZero => "_level_zero",
+                };
+                let coarse = if coarse { "_coarse" } else { "" };
+                format!("sample_faces{detail}{coarse}")
+            }
+            Self::OnStep(width) => format!("on_step{width}"),
+            Self::Held(model, 1) => model.name().into(),
+            Self::Held(model, width) => format!("{model}_vec{width}"),
             Self::LinearFog => "linear_fog".into(),
             Self::FogFactor => "fog_factor".into(),
             Self::Address => "address".into(),
@@ -75,10 +104,17 @@ impl Helper {
         match self {
             Self::DotZero(width) => vec![Self::MulZero(width)],
             Self::ExpP => vec![Self::PartialPrecision],
-            Self::LogP => vec![Self::Log2, Self::PartialPrecision],
-            Self::Lit => vec![Self::Log2],
-            Self::SampleFaces | Self::SampleFacesBias | Self::SampleFacesLevelZero => {
-                vec![Self::CubeFace, Self::OnFace]
+            Self::LogP(of_zero) => vec![Self::Log2(of_zero), Self::PartialPrecision],
+            Self::Lit(of_zero) => vec![Self::Log2(of_zero)],
+            Self::Rcp(OfZero::Infinity)
+            | Self::Rsq(OfZero::Infinity)
+            | Self::Log2(OfZero::Infinity) => vec![Self::Infinity],
+            Self::SampleFaces { coarse, .. } => {
+                let snap = coarse.then_some(Self::OnStep(2));
+                [Self::CubeFace, Self::OnFace]
+                    .into_iter()
+                    .chain(snap)
+                    .collect()
             }
             _ => Vec::new(),
         }
@@ -106,31 +142,39 @@ impl Helper {
                      if index < 0 || index >= {count} {{\n        return vec4f();\n    }}\n    \
                      return vs.c[index];\n}}\n"
             ),
-            Self::Rcp => format!(
-                "// 1 / x; the largest number where x is 0.\n\
+            Self::Infinity => INFINITY.into(),
+            Self::Rcp(of_zero) => format!(
+                "// 1 / x; {} where x is 0.\n\
                  fn rcp(x: f32) -> f32 {{\n    \
-                     return select(1.0 / x, {LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+                     return select(1.0 / x, {}, abs(x) < {SMALLEST_NORMAL});\n}}\n",
+                words(of_zero),
+                number_of(of_zero),
             ),
-            Self::Rsq => format!(
-                "// 1 / √|x|; the largest number where x is 0.\n\
+            Self::Rsq(of_zero) => format!(
+                "// 1 / √|x|; {} where x is 0.\n\
                  fn rsq(x: f32) -> f32 {{\n    \
-                     return select(inverseSqrt(abs(x)), {LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+                     return select(inverseSqrt(abs(x)), {}, abs(x) < {SMALLEST_NORMAL});\n}}\n",
+                words(of_zero),
+                number_of(of_zero),
             ),
-            Self::Log2 => format!(
-                "// log2 |x|; the smallest number where x is 0.\n\
+            Self::Log2(of_zero) => format!(
+                "// log2 |x|; minus {} where x is 0.\n\
                  fn log2_abs(x: f32) -> f32 {{\n    \
-                     return select(log2(abs(x)), -{LARGEST}, abs(x) < {SMALLEST_NORMAL});\n}}\n"
+                     return select(log2(abs(x)), -{}, abs(x) < {SMALLEST_NORMAL});\n}}\n",
+                words(of_zero),
+                number_of(of_zero),
             ),
-            Self::LogP => format!(
+            Self::LogP(of_zero) => format!(
                 "// Exponent and mantissa of |x|, log2 |x| in partial precision, 1.\n\
                  fn logp(x: f32) -> vec4f {{\n    \
                      let v = abs(x);\n    \
-                     if v < {SMALLEST_NORMAL} {{\n        return vec4f(-{LARGEST}, 1.0, -{LARGEST}, 1.0);\n    }}\n    \
+                     if v < {SMALLEST_NORMAL} {{\n        return vec4f(-{least}, 1.0, -{least}, 1.0);\n    }}\n    \
                      let bits = bitcast<u32>(v);\n    \
                      if bits >= 0x7f800000u {{\n        return vec4f(v, select(1.0, v, bits > 0x7f800000u), v, 1.0); // infinity and NaN\n    }}\n    \
                      let exponent = f32(i32(bits >> 23u) - 127);\n    \
                      let mantissa = bitcast<f32>((bits & 0x007fffffu) | 0x3f800000u);\n    \
-                     return vec4f(exponent, mantissa, partial_precision(log2_abs(v)), 1.0);\n}}\n"
+                     return vec4f(exponent, mantissa, partial_precision(log2_abs(v)), 1.0);\n}}\n",
+                least = number_of(of_zero),
             ),
             Self::ExpP => format!(
                 "// 2 to the power of ⌊x⌋, x - ⌊x⌋, 2 to the power of x in partial precision, 1.\n\
@@ -139,20 +183,36 @@ impl Helper {
                      return vec4f(exp2(floor(x)), fraction, partial_precision(exp2(x)), 1.0);\n}}\n"
             ),
             Self::PartialPrecision => PARTIAL_PRECISION.into(),
-            Self::Lit => LIT.into(),
+            Self::Lit(_) => LIT.into(),
             Self::Divide => DIVIDE.into(),
             Self::Mirror => MIRROR.into(),
             Self::InsideLinear => INSIDE_LINEAR.into(),
             Self::InsidePoint => INSIDE_POINT.into(),
             Self::CubeFace => CUBE_FACE.into(),
             Self::OnFace => ON_FACE.into(),
-            Self::SampleFaces => sample_faces(false),
-            Self::SampleFacesBias => sample_faces(true),
-            Self::SampleFacesLevelZero => SAMPLE_FACES_LEVEL_ZERO.into(),
+            Self::SampleFaces { detail, coarse } => sample_faces(&self.name(), detail, coarse),
+            Self::OnStep(width) => on_step(&self.name(), width),
+            Self::Held(model, width) => held(&self.name(), model, width),
             Self::LinearFog => LINEAR_FOG.into(),
             Self::FogFactor => FOG_FACTOR.into(),
             Self::Address => ADDRESS.into(),
         }
+    }
+}
+
+/// What stands for infinity where 0 is divided by, in words.
+fn words(of_zero: OfZero) -> &'static str {
+    match of_zero {
+        OfZero::Largest => "the largest number",
+        OfZero::Infinity => "infinity",
+    }
+}
+
+/// The same as WGSL.
+fn number_of(of_zero: OfZero) -> &'static str {
+    match of_zero {
+        OfZero::Largest => LARGEST,
+        OfZero::Infinity => "infinity()",
     }
 }
 
@@ -172,6 +232,14 @@ fn mul_zero(name: &str, width: usize) -> String {
              return select(a * b, {zero}, (a == {zero}) {or} (b == {zero}));\n}}\n"
     )
 }
+
+const INFINITY: &str = "\
+// Infinity, which no expression of constants may be.
+fn infinity() -> f32 {
+    var bits = 0x7f800000u;
+    return bitcast<f32>(bits);
+}
+";
 
 const PARTIAL_PRECISION: &str = "\
 // x without its eight lowest bits.
@@ -279,34 +347,71 @@ fn linear_fog(distance: f32, start: f32, end: f32) -> f32 {
 }
 ";
 
-const SAMPLE_FACES_LEVEL_ZERO: &str = "\
-// Level 0 of a cube as Direct3D 8 filters it, each face for itself.
-fn sample_faces_level_zero(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f) -> vec4f {
-    let face = cube_face(direction);
-    return textureSampleLevel(faces, clamped, on_face(face, direction), face, 0.0);
-}
-";
-
-fn sample_faces(bias: bool) -> String {
-    let (name, parameter, dx, dy, about) = if bias {
-        (
-            "sample_faces_bias",
-            ", bias: f32",
-            "exp2(bias) * (dx - at)",
-            "exp2(bias) * (dy - at)",
-            " with a bias of the level of detail",
-        )
+fn sample_faces(name: &str, detail: Detail, coarse: bool) -> String {
+    let (parameter, about) = match detail {
+        Detail::Plain => ("", ""),
+        Detail::Bias => (", bias: f32", " with a bias of the level of detail"),
+        Detail::LevelZero => ("", ", level 0"),
+    };
+    let scale = if detail == Detail::Bias {
+        "exp2(bias) * "
     } else {
-        ("sample_faces", "", "dx - at", "dy - at", "")
+        ""
+    };
+    let place = if coarse {
+        "on_step2(at, textureDimensions(faces))"
+    } else {
+        "at"
+    };
+    let (steps, call, last) = match detail {
+        Detail::LevelZero => (String::new(), "textureSampleLevel", "0.0".to_string()),
+        Detail::Plain | Detail::Bias => {
+            let step =
+                |d: char| format!("    let d{d} = on_face(face, direction + dpd{d}(direction));\n");
+            let of = |d: char| match scale {
+                "" => format!("d{d} - at"),
+                scale => format!("{scale}(d{d} - at)"),
+            };
+            let steps = ['x', 'y'].map(step).concat();
+            (steps, "textureSampleGrad", ['x', 'y'].map(of).join(", "))
+        }
     };
     format!(
         "// A cube as Direct3D 8 filters it, each face for itself{about}.\n\
          fn {name}(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f{parameter}) -> vec4f {{\n    \
              let face = cube_face(direction);\n    \
-             let at = on_face(face, direction);\n    \
-             let dx = on_face(face, direction + dpdx(direction));\n    \
-             let dy = on_face(face, direction + dpdy(direction));\n    \
-             return textureSampleGrad(faces, clamped, at, face, {dx}, {dy});\n}}\n"
+             let at = on_face(face, direction);\n\
+             {steps}    \
+             return {call}(faces, clamped, {place}, face, {last});\n}}\n"
+    )
+}
+
+fn on_step(name: &str, width: usize) -> String {
+    format!(
+        "// The nearest place where a linear filter of a texture of this size has weights of whole 1/256.\n\
+         fn {name}(at: vec{width}f, size: vec{width}u) -> vec{width}f {{\n    \
+             let texels = vec{width}f(size);\n    \
+             return (floor((at * texels - 0.5) * 256.0 + 0.5) / 256.0 + 0.5) / texels;\n}}\n"
+    )
+}
+
+fn held(name: &str, model: Model, width: usize) -> String {
+    let (of, steps) = (model.most(), model.steps().unwrap_or(1.0));
+    let (kind, least, greatest) = match width {
+        1 => ("f32".to_string(), format!("-{of:?}"), format!("{of:?}")),
+        _ => {
+            let kind = format!("vec{width}f");
+            (
+                kind.clone(),
+                format!("{kind}(-{of:?})"),
+                format!("{kind}({of:?})"),
+            )
+        }
+    };
+    format!(
+        "// x as the registers of {model} hold it: -{of} to {of} in steps of 1/{steps}.\n\
+         fn {name}(x: {kind}) -> {kind} {{\n    \
+             return floor(clamp(x, {least}, {greatest}) * {steps:?} + 0.5) / {steps:?};\n}}\n"
     )
 }
 

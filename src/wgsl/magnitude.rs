@@ -8,7 +8,8 @@
 
 use super::Options;
 use crate::isa::{ResultModifier, ShaderKind, SourceModifier, WriteMask};
-use crate::kernel::{Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
+use crate::policy::{Model, Policies, ZeroProduct};
 use std::collections::BTreeMap;
 
 /// A number that may be infinite or NaN.
@@ -40,6 +41,9 @@ struct Factor {
 #[derive(Clone, Debug)]
 pub(super) struct Magnitudes {
     kind: ShaderKind,
+    policies: Policies,
+    /// The components that hold numbers of the shader's hardware model, by slot.
+    held: [WriteMask; SLOT_COUNT],
     most: [[f64; 4]; SLOT_COUNT],
     writes: [[u32; 4]; SLOT_COUNT],
     /// By slot and component.
@@ -59,7 +63,8 @@ pub(super) struct Outcome {
 }
 
 impl Magnitudes {
-    pub(super) fn new(kind: ShaderKind, known: BTreeMap<u32, [f32; 4]>, options: &Options) -> Self {
+    pub(super) fn new(kernel: &Kernel, known: BTreeMap<u32, [f32; 4]>, options: &Options) -> Self {
+        let kind = kernel.version.kind();
         let outside = if options.wild_inputs {
             UNBOUNDED
         } else {
@@ -74,8 +79,15 @@ impl Magnitudes {
         inputs.for_each(|slot| most[slot.index()] = [input; 4]);
         let sets = (0..8).filter_map(Slot::texcoord);
         sets.for_each(|slot| most[slot.index()] = [outside; 4]);
+        // Colours are brought into the model where they come in; registers are 0 at first.
+        let mut held = [WriteMask::ALL; SLOT_COUNT];
+        for slot in (0..8).filter_map(Slot::texcoord) {
+            held[slot.index()] = WriteMask::NONE;
+        }
         Self {
             kind,
+            policies: kernel.policies,
+            held,
             most,
             writes: [[0; 4]; SLOT_COUNT],
             facts: BTreeMap::new(),
@@ -123,8 +135,17 @@ impl Magnitudes {
         }
     }
 
+    /// The components of a register that hold numbers of the shader's hardware model by now.
+    pub(super) fn held(&self, slot: Slot) -> WriteMask {
+        self.held[slot.index()]
+    }
+
     /// Whether a step needs products that are guarded against a factor of 0.
     pub(super) fn needs_guard(&self, step: &Step) -> bool {
+        // Fixed-point numbers are finite.
+        if step.reads != Model::Float || self.policies.zero_product == ZeroProduct::Ieee {
+            return false;
+        }
         let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
             return false;
         };
@@ -176,6 +197,7 @@ impl Magnitudes {
         for component in step.mask.components() {
             let bound = limited(self.bound(step, component) * scale);
             most[component] = if step.result.saturate { 1.0 } else { bound };
+            most[component] = most[component].min(step.writes.most().into());
         }
         let facts = std::array::from_fn(|component| {
             let written = step.mask.has(component);
@@ -187,6 +209,10 @@ impl Magnitudes {
     /// Writes what a step left behind.
     pub(super) fn write(&mut self, step: &Step, outcome: Outcome) {
         let at = step.destination.index();
+        self.held[at] = match step.writes {
+            Model::Float => self.held[at].without(step.mask),
+            Model::Gf3 | Model::R200 => self.held[at].or(step.mask),
+        };
         for (component, fact) in outcome.facts.into_iter().enumerate() {
             if step.mask.has(component) {
                 self.most[at][component] = outcome.most[component];
@@ -226,11 +252,11 @@ impl Magnitudes {
             Op::Floor => a,
             Op::Dp3 => dot(3),
             Op::Dp4 => dot(4),
-            Op::Rcp | Op::Rsq | Op::Log if scalar < UNBOUNDED => LARGEST,
+            Op::Rcp | Op::Rsq | Op::Log if scalar < UNBOUNDED => self.of_zero(),
             Op::Rcp | Op::Rsq | Op::Log => UNBOUNDED,
             Op::Exp => scalar.exp2(),
             Op::ExpP => [scalar.exp2(), 1.0, scalar.exp2(), 1.0][component],
-            Op::LogP if scalar < UNBOUNDED => [LARGEST, 2.0, LARGEST, 1.0][component],
+            Op::LogP if scalar < UNBOUNDED => [self.of_zero(), 2.0, self.of_zero(), 1.0][component],
             Op::LogP => UNBOUNDED,
             Op::Lit => [1.0, scalar, self.specular(step), 1.0][component],
             Op::Dst => [1.0, product(of(0, 1), of(1, 1)), of(0, 2), of(1, 3)][component],
@@ -239,6 +265,11 @@ impl Magnitudes {
             Op::Sample(stage) => self.texels[usize::from(stage) & 7],
             Op::DivideZ | Op::DivideW | Op::Reflect | Op::Kill => UNBOUNDED,
         }
+    }
+
+    /// The magnitude of a reciprocal or a logarithm of 0.
+    fn of_zero(&self) -> f64 {
+        self.policies.of_zero.value().into()
     }
 
     /// The bound of the specular term of `lit`: finite where the power is known not to be negative.

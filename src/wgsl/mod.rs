@@ -43,6 +43,12 @@
 //!
 //! Left to the GPU: denormal results, the sign of zero, NaN in coordinates and in saturation other than of fog (0 on all that is known),
 //! the level of detail within what WebGPU allows, the order of the sum within `dot` unless [`Options::exact_dots`].
+//!
+//! # Numbers of hardware models
+//!
+//! Under a [`Model`] of few bits a function of its name brings numbers into its steps, where a register
+//! or a constant may hold others and behind arithmetic. Filters with weights of 8 bits are read where their weights are whole
+//! steps ([`StageOptions::weights`]).
 
 mod body;
 mod constants;
@@ -53,6 +59,7 @@ mod layout;
 mod listing;
 mod magnitude;
 mod number;
+mod operand;
 mod operation;
 mod options;
 mod pixel;
@@ -74,6 +81,7 @@ pub use reflection::{
 use crate::diagnostic::SourceMap;
 use crate::isa::ShaderKind;
 use crate::kernel::Kernel;
+use crate::policy::Model;
 use crate::program::Program;
 use crate::texture::{AddressMode, TextureKind};
 use body::Body;
@@ -394,6 +402,10 @@ fn heading(parts: &[&Part<'_>], bindings: &[Binding], options: &Options) -> Stri
         let before = if i == 0 { "// " } else { " and " };
         let version = part.stage.program.version;
         _ = write!(text, "{before}{version} {}", Lines::new(part.stage).name());
+        let model = part.stage.kernel.model;
+        if model != Model::Float {
+            _ = write!(text, " with the numbers of {model}");
+        }
     }
     text.push_str(", translated by texcrd.\n");
     if !bindings.is_empty() {

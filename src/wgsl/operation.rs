@@ -2,11 +2,12 @@
 
 use super::body::{Body, slots_read};
 use super::expression::{Binding, Expression, Value};
-use super::helper::Helper;
+use super::helper::{Detail, Helper};
 use super::layout::Field;
 use crate::isa::WriteMask;
 use crate::isa::operand::XYZW;
-use crate::kernel::{Op, Place, Step};
+use crate::kernel::{Op, Step};
+use crate::policy::Model;
 use crate::texture::{AddressMode, Filter, TextureKind};
 
 impl Body<'_> {
@@ -15,14 +16,13 @@ impl Body<'_> {
         let mask = step.mask;
         let width = mask.count() as usize;
         // Sources by number; every step has as many as its operation reads.
-        let source = |body: &mut Self, i: usize| match step.sources.get(i) {
-            Some(operand) => body.operand(operand, slots_read(step.op, step.mask, i, body.options)),
-            None => Expression::number("0.0"),
+        let source = |body: &mut Self, i: usize| {
+            body.operand(step, i, slots_read(step.op, step.mask, i, body.options))
         };
-        let one = |body: &mut Self, i: usize, slot: usize| match step.sources.get(i) {
-            Some(operand) => body.operand(operand, WriteMask::component(slot)),
-            None => Expression::number("0.0"),
+        let one = |body: &mut Self, i: usize, slot: usize| {
+            body.operand(step, i, WriteMask::component(slot))
         };
+        let of_zero = self.stage.kernel.policies.of_zero;
         let guard = self.magnitudes.needs_guard(step);
         let whole = match step.op {
             Op::Mov => source(self, 0),
@@ -71,26 +71,26 @@ impl Body<'_> {
             Op::Dp4 => self.dot(step, guard, 4),
             Op::Rcp => {
                 let x = source(self, 0);
-                self.called(Helper::Rcp, &[x], 1)
+                self.called(Helper::Rcp(of_zero), &[x], 1)
             }
             Op::Rsq => {
                 let x = source(self, 0);
-                self.called(Helper::Rsq, &[x], 1)
+                self.called(Helper::Rsq(of_zero), &[x], 1)
             }
             Op::Log => {
                 let x = source(self, 0);
-                self.called(Helper::Log2, &[x], 1)
+                self.called(Helper::Log2(of_zero), &[x], 1)
             }
             Op::Exp => source(self, 0).map("exp2"),
             Op::ExpP => return self.partial_powers(step),
             Op::LogP => {
                 let x = source(self, 0);
-                let all = self.called(Helper::LogP, &[x], 4);
+                let all = self.called(Helper::LogP(of_zero), &[x], 4);
                 components(&all, mask)
             }
             Op::Lit => {
                 let arguments = [one(self, 0, 0), one(self, 0, 1), one(self, 0, 3)];
-                let all = self.called(Helper::Lit, &arguments, 4);
+                let all = self.called(Helper::Lit(of_zero), &arguments, 4);
                 components(&all, mask)
             }
             Op::Dst => {
@@ -107,10 +107,7 @@ impl Body<'_> {
             }
             Op::DivideZ | Op::DivideW => {
                 let divisor = if step.op == Op::DivideZ { 2 } else { 3 };
-                let xy = match step.sources.first() {
-                    Some(operand) => self.operand(operand, WriteMask::XY),
-                    None => Expression::number("0.0"),
-                };
+                let xy = self.operand(step, 0, WriteMask::XY);
                 let arguments = [xy.spread(2), one(self, 0, divisor)];
                 let xy = self.called(Helper::Divide, &arguments, 2);
                 planar(
@@ -120,13 +117,8 @@ impl Body<'_> {
                 )
             }
             Op::Bump(stage) => {
-                let (at, du, dv) = match step.sources.first() {
-                    Some(operand) => {
-                        let at = self.operand(operand, WriteMask::XY);
-                        (at, one(self, 1, 0), one(self, 1, 1))
-                    }
-                    None => return Value::Whole(Expression::number("0.0")),
-                };
+                let at = self.operand(step, 0, WriteMask::XY);
+                let (du, dv) = (one(self, 1, 0), one(self, 1, 1));
                 let matrix = self.uniform(Field::Bump(stage));
                 let row = |swizzle: &str| Expression::new(format!("{matrix}.{swizzle}"), 2);
                 let offset = row("xy").times(&du).plus(&row("zw").times(&dv));
@@ -145,7 +137,11 @@ impl Body<'_> {
                 let (a, l) = (source(self, 0), one(self, 1, 2));
                 let state = self.uniform(Field::Luminance(stage));
                 let part = |c: &str| Expression::new(format!("{state}.{c}"), 1);
-                a.times(&l.times(&part("x")).plus(&part("y")))
+                let factor = l.times(&part("x")).plus(&part("y"));
+                match step.reads {
+                    Model::Gf3 => a.times(&factor.map("saturate")),
+                    Model::Float | Model::R200 => a.times(&factor),
+                }
             }
             Op::Reflect => {
                 let arguments = [source(self, 0).spread(3), source(self, 1).spread(3)];
@@ -181,10 +177,7 @@ impl Body<'_> {
 
     fn dot(&mut self, step: &Step, guard: bool, width: usize) -> Expression {
         let slots = step.op.slots_read(0, step.mask);
-        let [Some(a), Some(b)] = [step.sources.first(), step.sources.get(1)] else {
-            return Expression::number("0.0");
-        };
-        let vectors = [a, b].map(|operand| self.operand(operand, slots).spread(width));
+        let vectors = [0, 1].map(|i| self.operand(step, i, slots).spread(width));
         match (guard, self.options.exact_dots) {
             (true, _) => self.called(Helper::DotZero(width), &vectors, 1),
             (false, true) => self.called(Helper::Dot(width), &vectors, 1),
@@ -200,7 +193,7 @@ impl Body<'_> {
         let finite = [a, b]
             .iter()
             .all(|s| self.magnitudes.is_finite(s, step.mask));
-        let (a, b) = (self.operand(a, step.mask), self.operand(b, step.mask));
+        let [a, b] = [0, 1].map(|i| self.operand(step, i, step.mask));
         let width = a.width.max(b.width);
         let (a, b) = (a.spread(width), b.spread(width));
         if finite {
@@ -216,7 +209,7 @@ impl Body<'_> {
         };
         let finite = self.magnitudes.is_finite(operand, WriteMask::X);
         if step.mask.has(2) || (step.mask.has(1) && !finite) {
-            let x = self.operand(operand, WriteMask::X);
+            let x = self.operand(step, 0, WriteMask::X);
             let all = self.called(Helper::ExpP, &[x], 4);
             return Value::Whole(components(&all, step.mask));
         }
@@ -224,7 +217,7 @@ impl Body<'_> {
             if component == 3 {
                 return Expression::number("1.0");
             }
-            let x = self.operand(operand, WriteMask::X);
+            let x = self.operand(step, 0, WriteMask::X);
             let whole = x.map("floor");
             if component == 0 {
                 whole.map("exp2")
@@ -238,17 +231,14 @@ impl Body<'_> {
     /// A sample, with the address modes that WebGPU does not have.
     pub(super) fn sample(&mut self, step: &Step, stage: u8) {
         let state = self.options.stages[usize::from(stage) & 7];
-        let finish = |texel: Expression| {
-            let texel = components(&texel, step.mask);
-            Value::Whole(texel).finished(step.result)
-        };
-        let (Some(kind), Some(operand)) = (state.texture, step.sources.first()) else {
+        let (Some(kind), Some(_)) = (state.texture, step.sources.first()) else {
             let black = Expression::new("vec4f(0.0, 0.0, 0.0, 1.0)", 4);
-            return self.assign(step.destination, step.mask, finish(black));
+            return self.sampled(step, &black);
         };
         let count = state.coordinates();
         let slots = slots_read(step.op, step.mask, 0, self.options);
-        let at = self.coordinates(operand, slots).spread(count);
+        // Coordinates are named x, y and z, whatever register holds them.
+        let at = self.operand_named(step, 0, slots, XYZW).spread(count);
         let axes = match kind {
             TextureKind::Cube => &[][..],
             _ => &state.address[..count],
@@ -256,7 +246,8 @@ impl Body<'_> {
         let border = axes.contains(&AddressMode::Border);
         let mirrored = axes.contains(&AddressMode::MirrorOnce);
         let in_parts = mirrored && axes.iter().any(|mode| *mode != AddressMode::MirrorOnce);
-        let open = border || in_parts;
+        let coarse = state.coarse_filter() && kind != TextureKind::Cube;
+        let open = border || in_parts || coarse;
         let mut at = at;
         if open {
             self.push("{");
@@ -272,9 +263,15 @@ impl Body<'_> {
             });
             at = Expression::call(&format!("vec{count}f"), &parts.collect::<Vec<_>>(), count);
         }
-        let mut texel = self.texel(stage, &at);
+        let on_step = coarse.then(|| {
+            let snap = self.helpers.call(Helper::OnStep(count));
+            let place = format!("{snap}({}, textureDimensions(texture{stage}))", at.text);
+            self.push(format!("    let on_step = {place};"));
+            "on_step"
+        });
+        let mut texel = self.texel(stage, &at, on_step);
         if border {
-            let inside = self.inside(stage, axes, state.filter);
+            let inside = self.inside(stage, axes, state.filter, on_step.unwrap_or("at"));
             self.push(format!("    let inside = {inside};"));
             let color = self.uniform(Field::Border(stage));
             texel = Expression::new(
@@ -283,67 +280,68 @@ impl Body<'_> {
             );
         }
         let before = self.mark();
-        self.assign(step.destination, step.mask, finish(texel));
+        self.sampled(step, &texel);
         if open {
             self.indent_from(before);
             self.push("}");
         }
     }
 
-    /// Coordinates are named x, y and z, whatever register holds them.
-    fn coordinates(&mut self, operand: &crate::kernel::Operand, slots: WriteMask) -> Expression {
-        let Place::Slot(slot) = operand.place else {
-            return self.operand(operand, slots);
-        };
-        let components: Vec<usize> = slots
-            .components()
-            .map(|s| operand.swizzle.slot(s))
-            .collect();
-        let (name, width) = (self.name(slot), self.width(slot));
-        super::body::select(name, width, &components, XYZW).modified(operand.modifier)
+    /// Assigns a sample.
+    fn sampled(&mut self, step: &Step, texel: &Expression) {
+        let value = Value::Whole(components(texel, step.mask));
+        let value = self.finished(step, value);
+        self.assign(step.destination, step.mask, value);
     }
 
-    /// The call that reads a texture.
-    fn texel(&mut self, stage: u8, at: &Expression) -> Expression {
+    /// The call that reads a texture. `on_step`: where it is read if the weights of filters have 8 bits; the coordinates
+    /// still choose the level.
+    fn texel(&mut self, stage: u8, at: &Expression, on_step: Option<&str>) -> Expression {
         let state = self.options.stages[usize::from(stage) & 7];
+        let detail = match (self.options.level_zero, state.lod_bias) {
+            (true, _) => Detail::LevelZero,
+            (false, true) => Detail::Bias,
+            (false, false) => Detail::Plain,
+        };
+        let function = match (state.separate_faces(), detail, on_step) {
+            (true, ..) => self.helpers.call(Helper::SampleFaces {
+                detail,
+                coarse: state.coarse_filter(),
+            }),
+            (false, Detail::LevelZero, _) => "textureSampleLevel".into(),
+            (false, _, Some(_)) => "textureSampleGrad".into(),
+            (false, Detail::Bias, None) => "textureSampleBias".into(),
+            (false, Detail::Plain, None) => "textureSample".into(),
+        };
         let mut arguments = vec![
             format!("texture{stage}"),
             format!("sampler{stage}"),
-            at.text.clone(),
+            on_step.unwrap_or(&at.text).to_string(),
         ];
-        let function = match (
-            state.separate_faces(),
-            self.options.level_zero,
-            state.lod_bias,
-        ) {
-            (false, true, _) => {
-                arguments.push("0.0".into());
-                "textureSampleLevel".to_string()
+        let bias = (detail == Detail::Bias).then(|| self.uniform(Field::LodBias(stage)));
+        match (detail, on_step, bias) {
+            (Detail::LevelZero, ..) if !state.separate_faces() => arguments.push("0.0".into()),
+            (Detail::Plain | Detail::Bias, Some(_), bias) => {
+                let scale = bias.map_or(String::new(), |bias| format!("exp2({bias}) * "));
+                arguments.extend(["dpdx", "dpdy"].map(|d| format!("{scale}{d}({})", at.text)));
             }
-            (false, false, true) => "textureSampleBias".to_string(),
-            (false, false, false) => "textureSample".to_string(),
-            (true, true, _) => self.helpers.call(Helper::SampleFacesLevelZero),
-            (true, false, true) => self.helpers.call(Helper::SampleFacesBias),
-            (true, false, false) => self.helpers.call(Helper::SampleFaces),
-        };
-        if state.lod_bias && !self.options.level_zero {
-            let bias = self.uniform(Field::LodBias(stage));
-            arguments.push(bias);
+            (_, None, bias) => arguments.extend(bias),
+            _ => {}
         }
         Expression::call(&function, &arguments, 4)
     }
 
     /// The share of a sample that lies inside the texture along the axes that have a border.
-    fn inside(&mut self, stage: u8, axes: &[AddressMode], filter: Filter) -> String {
+    fn inside(&mut self, stage: u8, axes: &[AddressMode], filter: Filter, at: &str) -> String {
         let factors = axes
             .iter()
             .zip(XYZW)
             .filter(|(mode, _)| **mode == AddressMode::Border);
         let factors: Vec<String> = factors
             .map(|(_, axis)| match filter {
-                Filter::Point => format!("{}(at.{axis})", self.helpers.call(Helper::InsidePoint)),
+                Filter::Point => format!("{}({at}.{axis})", self.helpers.call(Helper::InsidePoint)),
                 _ => format!(
-                    "{}(at.{axis}, textureDimensions(texture{stage}).{axis})",
+                    "{}({at}.{axis}, textureDimensions(texture{stage}).{axis})",
                     self.helpers.call(Helper::InsideLinear)
                 ),
             })
@@ -359,7 +357,7 @@ fn components(vector: &Expression, mask: WriteMask) -> Expression {
         return vector.clone();
     }
     let name = vector.within(Binding::Primary);
-    super::body::select(name, vector.width, &wanted, XYZW)
+    super::operand::select(name, vector.width, &wanted, XYZW)
 }
 
 /// 1 where a comparison holds, else 0.

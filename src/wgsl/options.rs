@@ -4,7 +4,7 @@ use crate::exec::STAGES;
 use crate::isa::ShaderKind;
 use crate::kernel::Slot;
 use crate::raster::{Compare, FogDistance, FogMode, RenderState, ShadeMode};
-use crate::texture::{AddressMode, Filter, TextureKind};
+use crate::texture::{AddressMode, Filter, TextureKind, Weights};
 
 /// What a translation is made for. The default is Direct3D 8's default state with a 2D texture in every stage.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,6 +167,9 @@ pub struct StageOptions {
     pub lod_bias: bool,
     /// Whether texels may lie outside of −1…1.
     pub wide_texels: bool,
+    /// How exact the weights of linear filters are. Those of 8 bits are made by reading where the weights are whole steps,
+    /// in the size of level 0; smaller levels, and cubes that are seamless, have the weights of the GPU.
+    pub weights: Weights,
 }
 
 impl Default for StageOptions {
@@ -178,6 +181,7 @@ impl Default for StageOptions {
             filter: Filter::Linear,
             lod_bias: false,
             wide_texels: false,
+            weights: Weights::Full,
         }
     }
 }
@@ -194,6 +198,11 @@ impl StageOptions {
     /// Whether the texture is a cube of six separate faces.
     pub(super) fn separate_faces(&self) -> bool {
         self.texture == Some(TextureKind::Cube) && !self.seamless
+    }
+
+    /// Whether a filter has weights of fewer bits than that of the GPU may have.
+    pub(super) fn coarse_filter(&self) -> bool {
+        self.filter == Filter::Linear && self.weights == Weights::EightBits
     }
 
     /// How many components of the coordinates a sample takes.

@@ -60,7 +60,8 @@ impl<'a> Body<'a> {
                 ..step.clone()
             };
             let width = mask.count() as usize;
-            let value = self.value(&step).finished(step.result).whole();
+            let value = self.value(&step);
+            let value = self.finished(&step, value).whole();
             parts.extend(match step.sources.as_slice() {
                 [
                     Operand {

@@ -16,9 +16,14 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
+/// The folder of the cases.
+pub(crate) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/conformance")
+}
+
 /// Every case with its path in the folder, in the order of the paths.
 pub(crate) fn cases() -> Vec<(String, Case)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/conformance");
+    let root = root();
     let mut paths = Vec::new();
     files(&root, &mut paths);
     paths.sort();

@@ -8,6 +8,7 @@ mod cases;
 mod exact;
 mod frames;
 mod matching;
+mod models;
 mod pictures;
 mod registers;
 mod states;

@@ -117,9 +117,42 @@ fn statistics() {
         (used(1, "texture"), used(1, "arithmetic")),
         (Some(4), Some(2))
     );
+    let stages = object["stats"]["stages"].as_array().expect("a list");
+    let numbers: Vec<_> = stages.iter().map(|s| s["stage"].as_u64()).collect();
+    assert_eq!(numbers, [0, 2, 3, 4, 5].map(Some));
+}
+
+/// Textures, full ports and possible pairs, with the lines of the file. Worked out by hand.
+#[test]
+fn statistics_of_stages_ports_and_pairs() {
+    let listing = b"ps.1.1\ntex t0\n; a comment\ntexbem t1, t0\nmul r0.rgb, t1, c0\nmov r0.a, c1\nmad r0, c0, c1, r0\n";
+    let ran = texcrd_with_input(&["check", "--stats", "-"], listing);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    for line in [
+        "  stage 0       2D, cube or volume, line 2\n",
+        "  stage 1       2D, line 4\n",
+        "  ports full    2 of 2 c# at once: line 7\n",
+        "  could pair    lines 5 and 6, for 1 slot less\n",
+    ] {
+        assert!(ran.out.contains(line), "{line} in\n{}", ran.out);
+    }
+    let ran = texcrd_with_input(&["check", "--stats", "--format", "json", "-"], listing);
+    let object: Value = serde_json::from_str(ran.out.trim()).expect("one object");
+    let stats = &object["stats"];
     assert_eq!(
-        object["stats"]["stages"],
-        serde_json::json!([0, 2, 3, 4, 5])
+        stats["stages"],
+        serde_json::json!([
+            { "stage": 0, "textures": "2D, cube or volume", "lines": [2] },
+            { "stage": 1, "textures": "2D", "lines": [4] },
+        ])
+    );
+    assert_eq!(
+        stats["full_ports"],
+        serde_json::json!([{ "file": "c", "allowed": 2, "pairs": false, "lines": [7] }])
+    );
+    assert_eq!(
+        stats["possible_pairs"],
+        serde_json::json!([{ "lines": [5, 6], "saves": 1 }])
     );
 }
 

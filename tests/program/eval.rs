@@ -279,3 +279,23 @@ fn the_trace_names_what_listings_name() {
     let trace = &eval(listing, &["t0=0.25,0.5,0"])["trace"];
     assert_eq!(trace[2]["writes"]["depth"], 0.5);
 }
+
+/// I7: a vertex constant that nobody sets is 0, and eval says so; those that are defined, set or only reached through
+/// a0.x are not named, and pixel shaders have no such rule.
+#[test]
+fn constants_that_nobody_sets() {
+    let listing = b"vs.1.1\ndef c9, 1, 1, 1, 1\nm4x4 oPos, v0, c0\nmov a0.x, v1.x\n\
+        mov oD0, c[a0.x + 40]\nmul oT0, v7, c9\nmov oD1, c4\n";
+    let ran = texcrd_with_input(
+        &["eval", "-", "--set", "c1=0,1,0,0", "--set", "c4=1"],
+        listing,
+    );
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let said = ran.err.matches("[I7]").count();
+    assert_eq!(said, 1, "{}", ran.err);
+    for part in ["warning[I7]", "c0, c2 and c3", "<stdin>:3:16"] {
+        assert!(ran.err.contains(part), "{part} in\n{}", ran.err);
+    }
+    let ran = texcrd_with_input(&["eval", "-"], b"ps.1.1\nmov r0, c0\n");
+    assert!(!ran.err.contains("I7"), "{}", ran.err);
+}

@@ -7,11 +7,15 @@ mod compare;
 mod debug;
 mod dis;
 mod eval;
+mod explain;
 mod generate;
 mod hosts;
+mod models;
 mod pictures;
+mod policies;
 mod run;
 mod test;
+mod tokens;
 mod translate;
 
 use std::io::Write;

@@ -14,7 +14,7 @@ use texcrd::policy::Dialect;
 use texcrd::program::Program;
 use texcrd::raster::{Compare, FogDistance, FogMode};
 use texcrd::scene::{DirectoryResolver, LoadOptions};
-use texcrd::texture::{AddressMode, Filter, Texture, TextureKind};
+use texcrd::texture::{AddressMode, Filter, Texture, TextureKind, Weights};
 use texcrd::wgsl::{Fog, Options, Points, Stage, StageOptions, Translation, translate};
 
 /// A translation and where it came from.
@@ -202,6 +202,10 @@ fn options(random: &mut Random, made: &Generated) -> Options {
         filter: random.pick(&[Filter::Point, Filter::Linear]).unwrap(),
         lod_bias: random.chance(20),
         wide_texels: random.chance(20),
+        weights: match random.chance(20) {
+            true => Weights::EightBits,
+            false => Weights::Full,
+        },
     });
     Options {
         stages,

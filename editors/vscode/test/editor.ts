@@ -21,7 +21,41 @@ export const editor = {
   expressionProvider: undefined as any,
   taskProvider: undefined as any,
   registered: new Set<string>(),
+  /** The language clients that were made, and what became of them. */
+  clients: [] as Client[],
+  status: undefined as any,
+  configurationChanged: undefined as any,
 };
+
+/** What stands in for the client of a language server. */
+class Client {
+  readonly args: unknown[];
+  state = 'made';
+  private changed: ((change: { newState: number }) => void) | undefined;
+
+  constructor(...args: unknown[]) {
+    this.args = args;
+    editor.clients.push(this);
+  }
+
+  onDidChangeState(changed: (change: { newState: number }) => void): void {
+    this.changed = changed;
+  }
+
+  async start(): Promise<void> {
+    this.state = 'started';
+  }
+
+  async stop(): Promise<void> {
+    this.end();
+  }
+
+  /** As when the server is gone. */
+  end(): void {
+    this.state = 'stopped';
+    this.changed?.({ newState: 1 });
+  }
+}
 
 const nothing = { dispose: () => undefined };
 
@@ -54,6 +88,10 @@ const vscode = {
       get: (name: string, otherwise: unknown) => editor.settings[`${section}.${name}`] ?? otherwise,
       inspect: (name: string) => ({ globalValue: editor.settings[`${section}.${name}`] }),
     }),
+    onDidChangeConfiguration: (changed: unknown) => {
+      editor.configurationChanged = changed;
+      return nothing;
+    },
     findFiles: async () => editor.foundFiles.map(file),
   },
   window: {
@@ -86,7 +124,13 @@ const vscode = {
     },
     startDebugging: async (_folder: unknown, configuration: unknown) => void editor.started.push(configuration),
   },
+  LanguageStatusSeverity: { Information: 0, Warning: 1, Error: 2 },
   languages: {
+    createLanguageStatusItem: (id: string) => {
+      editor.registered.add(`status:${id}`);
+      editor.status = { ...nothing };
+      return editor.status;
+    },
     registerEvaluatableExpressionProvider: (language: string, provider: unknown) => {
       editor.registered.add(`hover:${language}`);
       editor.expressionProvider = provider;
@@ -106,7 +150,8 @@ const vscode = {
 export function activate(): void {
   const loader = Module as unknown as { _load: (request: string, ...rest: unknown[]) => unknown };
   const load = loader._load;
-  loader._load = (request, ...rest) => (request === 'vscode' ? vscode : load(request, ...rest));
+  const own: Record<string, unknown> = { vscode, './client': { LanguageClient: Client, State: { Stopped: 1 } } };
+  loader._load = (request, ...rest) => own[request] ?? load(request, ...rest);
   const manifest = readJson('package.json');
   const memory = new Map<string, unknown>();
   const context = {

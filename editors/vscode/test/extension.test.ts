@@ -36,6 +36,7 @@ test('everything that the manifest contributes is registered', () => {
     `adapter:${debuggers[0].type}`,
     `hover:${languages[0].id}`,
     `task:${taskDefinitions[0].type}`,
+    'status:texcrd',
   ];
   assert.deepEqual([...editor.registered].toSorted(), expected.toSorted());
 });
@@ -159,6 +160,69 @@ test('a task of tasks.json keeps its definition', async () => {
   assert.deepEqual(args[4].args, [PROGRAM, ['check', '--dialect', 'd3d9', '--stats', '--', 'a.psh'], { cwd: folder.uri.fsPath }]);
   const unknown = { definition: { type: 'texcrd', command: 'dance' }, scope: folder, name: 'mine' };
   assert.equal(await editor.taskProvider.resolveTask(unknown), undefined);
+});
+
+const restart = () => editor.commands.get('texcrd.restartServer')!();
+
+test('the language server is `texcrd lsp` for listings and for the languages of the setting', async () => {
+  editor.settings['texcrd.languages'] = ['cpp'];
+  await restart();
+  const client = editor.clients.at(-1)!;
+  assert.equal(client.state, 'started');
+  const [id, , executable, { documentSelector, diagnosticCollectionName }] = client.args as any[];
+  assert.equal(id, 'texcrd');
+  assert.deepEqual(executable, { command: PROGRAM, args: ['lsp'], options: { cwd: folder.uri.fsPath } });
+  assert.deepEqual(documentSelector, [
+    { language: 'd3d8asm' },
+    { scheme: 'file', pattern: '**/*.{fx,nvv,nvp}' },
+    { scheme: 'file', language: 'cpp' },
+  ]);
+  // Tasks have the same owner, and leave open files to the server.
+  const { problemMatchers } = readJson('package.json').contributes;
+  assert.deepEqual([problemMatchers[0].owner, problemMatchers[0].applyTo], [diagnosticCollectionName, 'closedDocuments']);
+});
+
+test('the command starts the server anew, and other settings than its own do not', async () => {
+  await restart();
+  const before = editor.clients.at(-1)!;
+  await restart();
+  const client = editor.clients.at(-1)!;
+  assert.deepEqual([before.state, client.state], ['stopped', 'started']);
+  assert.equal(editor.status.severity, 0);
+  const changed = (name: string) => editor.configurationChanged({ affectsConfiguration: (section: string) => section === name });
+  await changed('texcrd.dialect');
+  assert.equal(editor.clients.at(-1), client);
+  await changed('texcrd.path');
+  assert.notEqual(editor.clients.at(-1), client);
+});
+
+test('where the program is missing, or the server ends, the status says so, and no message is in the way', async () => {
+  editor.settings['texcrd.path'] = '/nowhere/texcrd';
+  await restart();
+  assert.equal(editor.status.severity, 2);
+  assert.match(editor.status.detail, /nowhere/);
+  assert.equal(editor.status.command.command, 'workbench.action.openSettings');
+  editor.settings['texcrd.path'] = PROGRAM;
+  await restart();
+  assert.equal(editor.status.severity, 0);
+  editor.clients.at(-1)!.end();
+  assert.equal(editor.status.severity, 2);
+  assert.deepEqual(editor.errors, []);
+});
+
+test('the library of the client is one file that loads', () => {
+  // In the place of everything that the editor has stands something that can be called, made and asked for parts.
+  const anything: any = new Proxy(class {}, { get: (of, name) => (name in of ? Reflect.get(of, name) : anything) });
+  const loader = require('node:module') as { _load: (request: string, ...rest: unknown[]) => unknown };
+  const load = loader._load;
+  loader._load = (request, ...rest) => (request === 'vscode' ? anything : load(request, ...rest));
+  try {
+    const { LanguageClient, State } = require(path.join(ROOT, 'dist', 'client.js'));
+    assert.equal(typeof LanguageClient.prototype.start, 'function');
+    assert.equal(State.Stopped, 1);
+  } finally {
+    loader._load = load;
+  }
 });
 
 test('nothing but node and the editor is loaded at run time', () => {

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import * as fs from 'node:fs';
 import * as path from 'node:path';
+import { isBuiltin } from 'node:module';
 import { test } from 'node:test';
 import * as yauzl from 'yauzl';
 import { ROOT, readJson } from './surroundings';
@@ -63,6 +64,14 @@ test('the package holds what runs, and nothing else', async () => {
   const license = files.get('extension/LICENSE.txt')!.toString();
   assert.match(license, /MIT License/);
   assert.match(license, /Apache License/);
+  // What others wrote is in one file, with their licences.
+  for (const name of ['vscode-languageclient', 'vscode-jsonrpc', 'semver']) {
+    assert.match(license, new RegExp(`dist/client\\.js contains ${name} \\d`));
+  }
+  const client = files.get('extension/dist/client.js')!.toString();
+  const loaded = new Set([...client.matchAll(/\brequire\("([^"]+)"\)/g)].map(([, name]) => name!));
+  const others = [...loaded].filter((name) => name !== 'vscode' && !isBuiltin(name));
+  assert.deepEqual(others, []);
 
   const icon = files.get('extension/dist/icon.png')!;
   assert.equal(icon.subarray(1, 4).toString(), 'PNG');

@@ -22,13 +22,23 @@ export function withoutProgram(): string | false {
   return TEXCRD === undefined ? 'the variable TEXCRD names no program' : false;
 }
 
-/** `false`, or why a test that needs the debug adapter cannot be run. Anything but a program that has no `dap` yet runs, and may fail. */
+/** `false`, or why a test that needs the debug adapter cannot be run. */
 export function withoutAdapter(): string | false {
+  return withoutCommand('dap');
+}
+
+/** `false`, or why a test that needs the language server cannot be run. */
+export function withoutServer(): string | false {
+  return withoutCommand('lsp');
+}
+
+/** Anything but a program that was built without the command runs, and may fail. */
+function withoutCommand(command: string): string | false {
   if (TEXCRD === undefined) {
     return withoutProgram();
   }
-  const help = spawnSync(TEXCRD, ['dap', '--help'], { encoding: 'utf8' });
-  return /unrecognized subcommand/.test(help.stderr ?? '') ? `${TEXCRD} has no command \`dap\`` : false;
+  const help = spawnSync(TEXCRD, [command, '--help'], { encoding: 'utf8' });
+  return /unrecognized subcommand/.test(help.stderr ?? '') ? `${TEXCRD} has no command \`${command}\`` : false;
 }
 
 /** Says on standard error, too, what is left out: a skipped test is easily overlooked among those that pass. */

@@ -118,3 +118,10 @@ test('dialects are those of the crate', () => {
     assert.deepEqual(list, tables.dialects());
   }
 });
+
+test('hardware models are those of the crate', () => {
+  const { debuggers } = readJson('package.json').contributes;
+  const { model } = debuggers[0].configurationAttributes.launch.properties;
+  assert.deepEqual(model.enum, tables.models());
+  assert.equal(model.default, tables.models()[0]);
+});

@@ -27,21 +27,27 @@ function rows<T>(found: T[], text: string, array: RegExp): T[] {
 
 /** Every mnemonic, in lower case. */
 export function mnemonics(): string[] {
-  const text = read('isa/opcode.rs');
-  return rows(firstGroups(text, /\bop\(Opcode::\w+, "(\w+)"/g), text, /OPCODES: \[OpcodeRow; (\d+)\]/);
+  return ['arithmetic', 'vertex', 'texture'].flatMap((group) => {
+    const text = read(`isa/opcode/${group}.rs`);
+    return rows(firstGroups(text, /\bop\(\w+, \("(\w+)", 0x/g), text, /ROWS: \[OpcodeRow; (\d+)\]/);
+  });
 }
 
 /** What a mnemonic may end with: `_x2` … `_sat`. */
 export function resultSuffixes(): string[] {
   const text = read('isa/modifier.rs');
-  const shifts = rows(firstGroups(text, /\bshift\(-?\d, "(_\w+)"/g), text, /SHIFTS: \[ShiftRow; (\d+)\]/);
-  return [...shifts, ...firstGroups(text, /SATURATE_SUFFIX: &str = "(_\w+)"/g)];
+  const shifts = rows(firstGroups(text, /\bshift\(-?\d, "(_\w+)"/g), text, /SHIFTS: \[ResultSuffix; (\d+)\]/);
+  const saturation = firstGroups(text, /SATURATION: ResultSuffix = ResultSuffix \{\s*shift: 0,\s*suffix: "(_\w+)"/g);
+  if (saturation.length !== 1) {
+    throw new Error('the saturation was not found');
+  }
+  return [...shifts, ...saturation];
 }
 
 /** What a source may end with, in every spelling. */
 export function sourceSuffixes(): string[] {
   const text = read('isa/modifier.rs');
-  const found = all(text, /\brow\(\w+, \d+, "[^"]*", "(\w*)", "(\w*)"/g);
+  const found = all(text, /\brow\(\w+, \d+, \("[^"]*", "(\w*)", "(\w*)"\)/g);
   return [...new Set(rows(found, text, /SOURCE_MODIFIERS: \[SourceModifierRow; (\d+)\]/).flat())].filter(Boolean);
 }
 
@@ -54,24 +60,35 @@ export function usages(): string[] {
 /** The most registers that any version has of each file, by prefix. */
 export function registerCounts(): Map<string, number> {
   const text = read('isa/register.rs');
-  const found = all(text, /\brow\(\w+, "[^"]*", "(\w+)", \d+, \[([\d, ]+)\]/g);
+  const found = all(text, /\brow\(\w+, \("[^"]*", "(\w+)", \d+\), \[([\d, ]+)\]/g);
   const files = rows(found, text, /FILES: \[FileRow; (\d+)\]/);
   return new Map(files.map(([prefix, counts]) => [prefix!, Math.max(...counts!.split(',').map(Number))]));
 }
 
 /** `oPos`, `oFog`, `oPts`. */
 export function rasterizerOutputs(): string[] {
-  return firstGroups(/RAST_OUT: \[&str; \d+\] = \[(.*)\]/.exec(read('isa/register.rs'))?.[1] ?? '', /"(\w+)"/g);
+  const text = read('isa/register.rs');
+  return rows(firstGroups(text, /\bRastOutRow \{ name: "(\w+)"/g), text, /RAST_OUT: \[RastOutRow; (\d+)\]/);
 }
 
 /** Every version as its first line has it, with dots. */
 export function versions(): string[] {
   const text = read('isa/version.rs');
-  return rows(firstGroups(text, /\brow\(Version::\w+, [\w:]+, \d, "([\w.]+)"/g), text, /VERSIONS: \[VersionRow; (\d+)\]/);
+  return rows(firstGroups(text, /\brow\(Version::\w+, "([\w.]+)"/g), text, /VERSIONS: \[VersionRow; (\d+)\]/);
 }
 
-/** Every dialect by its name on the command line. */
+/** Every value of a choice of `policy/mod.rs` by its name on the command line, in the order of the declaration. */
+function choices(type: string): string[] {
+  const block = new RegExp(`\\n    ${type} "[^"]*";\\n([^}]*)\\n}`).exec(read('policy/mod.rs'))?.[1] ?? '';
+  return rows(firstGroups(block, /^ {4}\w+ "(\w+)" "/gm), `[${block.split('\n').length}]`, /\[(\d+)\]/);
+}
+
+/** Every dialect. */
 export function dialects(): string[] {
-  const text = read('policy.rs');
-  return rows(firstGroups(text, /\(Dialect::\w+, "(\w+)"\)/g), text, /DIALECTS: \[\(Dialect, &str\); (\d+)\]/);
+  return choices('Dialect');
+}
+
+/** Every hardware model. */
+export function models(): string[] {
+  return choices('Model');
 }

@@ -238,3 +238,110 @@ fn numbers_that_do_not_fit_are_refused() {
     let expected = "the second number of D3DVSD_CONST(0, 16) is at most 15";
     assert_eq!(message(ElementKind::Const { address: 0, values }), expected);
 }
+
+/// What D5 says of one element each: the table of registers of the specification, and that normals are three floats.
+#[test]
+fn fixed_function() {
+    for (element, expected) in [
+        ("D3DVSD_REG(0, D3DVSDT_FLOAT3)", None),
+        ("D3DVSD_REG(3, D3DVSDT_FLOAT3)", None),
+        (
+            "D3DVSD_REG(3, D3DVSDT_FLOAT4)",
+            Some("D3DVSDE_NORMAL is loaded as D3DVSDT_FLOAT4"),
+        ),
+        ("D3DVSD_REG(15, D3DVSDT_FLOAT3)", None),
+        (
+            "D3DVSD_REG(16, D3DVSDT_FLOAT3)",
+            Some("D3DVSDE_NORMAL2 is loaded from a stream"),
+        ),
+        (
+            "D3DVSD_REG(17, D3DVSDT_FLOAT3)",
+            Some("register 17 has no fixed meaning"),
+        ),
+        ("D3DVSD_TESSNORMAL(0, 3)", None),
+        ("D3DVSD_TESSNORMAL(15, 16)", None),
+        (
+            "D3DVSD_TESSNORMAL(7, 3)",
+            Some("normals are made of D3DVSDE_TEXCOORD0"),
+        ),
+        (
+            "D3DVSD_TESSNORMAL(0, 5)",
+            Some("normals go to D3DVSDE_DIFFUSE"),
+        ),
+        ("D3DVSD_TESSUV(14)", None),
+        (
+            "D3DVSD_TESSUV(6)",
+            Some("surface parameters go to D3DVSDE_SPECULAR"),
+        ),
+    ] {
+        let words = read_words(&format!("D3DVSD_STREAM(0), {element}, D3DVSD_END()"));
+        let (declaration, found) = Declaration::decode(&words);
+        assert_eq!(found, []);
+        let found = declaration.check_fixed_function();
+        let told: Vec<_> = told(&found);
+        let expected: Vec<_> = expected
+            .map(|message| ("D5", 1, message))
+            .into_iter()
+            .collect();
+        assert_eq!(told, expected, "{element}");
+    }
+}
+
+/// `def`s of a vertex shader as elements, worked out by hand: 0.5 is 0x3F000000, 1 is 0x3F800000, 2 is 0x40000000.
+#[test]
+fn constants_of_a_vertex_shader() {
+    let listing = "vs.1.1\ndef c4, 0, 0.5, 1, 2\n;@comment 00000001\ndef c5, 1, 1, 1, 1\nmov oPos, v0\n\
+                   def c9, 2, 0, 0, 0\ndef c8, 0, 0, 0, 0\n;@comment 00000002\n";
+    let mut shader = program(listing);
+    let declaration = take_constants(&mut shader).unwrap();
+    let fragment = declaration.encode_fragment().unwrap();
+    assert_eq!(
+        fragment,
+        words(
+            "84000004 00000000 3F000000 3F800000 40000000 3F800000 3F800000 3F800000 3F800000
+             82000009 40000000 00000000 00000000 00000000
+             82000008 00000000 00000000 00000000 00000000"
+        )
+    );
+    assert_eq!(
+        encode(&shader).unwrap(),
+        words("FFFE0101 0001FFFE 00000001 00000001 C00F0000 90E40000 0001FFFE 00000002 FFFF")
+    );
+    // A piece is no declaration, but can be read as one.
+    assert_eq!(told(&Declaration::decode(&fragment).1)[0].0, "D1");
+    let (again, found) = Declaration::decode_fragment(&fragment);
+    assert_eq!(found, []);
+    assert_eq!(read_words(&again.print_fragment()), fragment);
+    put_constants(&mut shader, &again);
+    assert_eq!(
+        syntax::print(&shader),
+        "vs.1.1\n;@comment 00000001\ndef c4, 0, 0.5, 1, 2\ndef c5, 1, 1, 1, 1\ndef c9, 2, 0, 0, 0\ndef c8, 0, 0, 0, 0\n\
+         mov oPos, v0\n;@comment 00000002\n"
+    );
+}
+
+/// Fifteen is the most that four bits count.
+#[test]
+fn many_constants_are_several_elements() {
+    let defs: String = (0..17)
+        .map(|at| format!("def c{at}, 1, 1, 1, 1\n"))
+        .collect();
+    let mut shader = program(&format!("vs.1.1\n{defs}mov oPos, v0\n"));
+    let declaration = take_constants(&mut shader).unwrap();
+    let fragment = declaration.encode_fragment().unwrap();
+    // The first of 15 constants from 0, then 2 from 15.
+    assert_eq!((fragment[0], fragment[61]), (0x9E00_0000, 0x8400_000F));
+    assert_eq!(fragment.len(), 2 + 17 * 4);
+}
+
+#[test]
+fn constants_that_have_no_element() {
+    let mut shader = program("vs.1.1\ndef c128, 1, 1, 1, 1\nmov oPos, v0\n");
+    let found = take_constants(&mut shader).unwrap_err();
+    assert_eq!(told(&found), [("K18", 11, "D3DVSD_CONST cannot load c128")]);
+    assert_eq!(shader.definitions().count(), 1);
+    // Those of a pixel shader stay.
+    let mut shader = program("ps.1.1\ndef c0, 1, 1, 1, 1\nmov r0, c0\n");
+    assert_eq!(take_constants(&mut shader), Ok(Declaration::default()));
+    assert_eq!(shader.definitions().count(), 1);
+}

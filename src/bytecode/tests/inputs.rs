@@ -33,7 +33,7 @@ fn listing_of(bytes: &[u8]) -> (Form, String) {
     let [stream] = &input.streams[..] else {
         panic!("{input:?}");
     };
-    let made = disassemble(stream, &mut sources).unwrap();
+    let made = disassemble(stream, None, &mut sources).unwrap();
     assert_eq!(made.diagnostics, []);
     (input.form, made.listing.unwrap())
 }
@@ -41,7 +41,7 @@ fn listing_of(bytes: &[u8]) -> (Form, String) {
 /// What is told of the one stream of a file, with the text that it points at.
 fn told_of(bytes: &[u8]) -> Vec<(&'static str, String, String)> {
     let (mut sources, input) = input(bytes);
-    let made = disassemble(&input.streams[0], &mut sources).unwrap();
+    let made = disassemble(&input.streams[0], None, &mut sources).unwrap();
     assert!(made.listing.is_none() || !any_error(&made.diagnostics));
     let text = |d: &Diagnostic| sources.text(d.span).into_owned();
     let one = |d: &Diagnostic| (d.rule.id, text(d), d.message.clone());
@@ -112,7 +112,7 @@ fn arrays_in_c_sources() {
     let (shader, declaration) = (StreamKind::Shader, StreamKind::Declaration);
     assert_eq!(kinds, [shader, shader, declaration]);
     let mut listing = |at: usize| {
-        let made = disassemble(&input.streams[at], &mut sources).unwrap();
+        let made = disassemble(&input.streams[at], None, &mut sources).unwrap();
         made.listing.unwrap()
     };
     assert_eq!(listing(0), LISTING);
@@ -151,7 +151,7 @@ fn diagnostics_point_into_the_file() {
     let expected = [("K8", "80000000".to_string(), message.to_string())];
     assert_eq!(told_of(&to_bytes(&broken)), expected);
     let (mut sources, input) = input(&to_bytes(&broken));
-    let made = disassemble(&input.streams[0], &mut sources).unwrap();
+    let made = disassemble(&input.streams[0], None, &mut sources).unwrap();
     let at = sources.locate(made.diagnostics[0].span).unwrap();
     assert_eq!((at.file, at.line, at.column), ("file", 5, 1));
 }
@@ -223,7 +223,7 @@ fn validation_points_into_the_listing() {
         0xFFFF,
     ];
     let (mut sources, input) = input(&to_bytes(&words));
-    let made = disassemble(&input.streams[0], &mut sources).unwrap();
+    let made = disassemble(&input.streams[0], None, &mut sources).unwrap();
     assert_eq!(made.diagnostics, []);
     let file = sources.files().last().unwrap();
     assert_eq!(file.name(), "file (listing)");

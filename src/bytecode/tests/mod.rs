@@ -5,7 +5,6 @@ mod declarations;
 mod examples;
 mod inputs;
 mod listings;
-mod random;
 mod trips;
 
 use super::*;

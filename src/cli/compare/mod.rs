@@ -4,6 +4,7 @@ mod json;
 mod picture;
 mod text;
 
+use super::computing::Computing;
 use super::{Failure, Format, Outcome, dialect, files, print, print_json, scene};
 use image::RgbaImage;
 use std::path::PathBuf;
@@ -72,6 +73,8 @@ pub(super) struct Arguments {
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
+    #[command(flatten)]
+    computing: Computing,
 }
 
 /// The channels of a picture, in order.
@@ -136,7 +139,10 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         }
         files::can_be_written(path)?;
     }
-    let loaded = scene::load(&arguments.scene, arguments.dialect)?;
+    let loaded = scene::load(
+        &arguments.scene,
+        &arguments.computing.loading(arguments.dialect),
+    )?;
     let size = arguments.size.unwrap_or(loaded.size());
     if let Some([x, y]) = (arguments.pixel).filter(|[x, y]| *x >= size[0] || *y >= size[1]) {
         let [width, height] = size;

@@ -3,6 +3,7 @@
 mod effects;
 mod line;
 
+use super::computing::Computing;
 use super::given::{self, Loaded};
 use super::shaders::Reading;
 use super::{Failure, Outcome, scene};
@@ -67,6 +68,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "WAY", conflicts_with = "plain")]
     pictures: Option<crate::tui::Protocol>,
     #[command(flatten)]
+    computing: Computing,
+    #[command(flatten)]
     reading: Reading,
 }
 
@@ -112,7 +115,11 @@ fn of_listing(arguments: &Arguments) -> Outcome {
         sources,
         program,
         kernel,
-    } = given::load(&arguments.file, &arguments.reading)?;
+    } = given::load(
+        &arguments.file,
+        &arguments.reading,
+        &arguments.computing.lowering(),
+    )?;
     let given = given::given(&arguments.set, program.version)?;
     let subject = ListingSubject {
         listing: Listing {
@@ -131,7 +138,10 @@ fn of_scene(arguments: &Arguments) -> Outcome {
         return Err(Failure::Io(format!("--set: {why}")));
     }
     let path = &arguments.file;
-    let scene = scene::load(path, arguments.reading.dialect)?;
+    let scene = scene::load(
+        path,
+        &arguments.computing.loading(arguments.reading.dialect),
+    )?;
     let options = RenderOptions {
         size: arguments.size,
         ..RenderOptions::default()

@@ -2,6 +2,7 @@
 
 use super::evaluate;
 use super::value::Value;
+use crate::policy::OfZero;
 use crate::semantics;
 
 /// One function.
@@ -38,13 +39,13 @@ static FUNCTIONS: [Function; 21] = [
     row("isinf", Body::One(|x| truth(x.is_infinite()))),
     row("floor", Body::One(f32::floor)),
     row("frc", Body::One(semantics::frc)),
-    row("rcp", Body::One(semantics::rcp)),
-    row("rsq", Body::One(semantics::rsq)),
+    row("rcp", Body::One(|x| semantics::rcp(OfZero::Largest, x))),
+    row("rsq", Body::One(|x| semantics::rsq(OfZero::Largest, x))),
     row("exp", Body::One(semantics::exp)),
-    row("log", Body::One(semantics::log)),
+    row("log", Body::One(|x| semantics::log(OfZero::Largest, x))),
     row("slt", Body::Two(semantics::slt)),
     row("sge", Body::Two(semantics::sge)),
-    row("lrp", Body::Three(semantics::lrp)),
+    row("lrp", Body::Three(semantics::lrp::<false>)),
     row("cnd", Body::Three(semantics::cnd)),
     row("cmp", Body::Three(semantics::cmp)),
 ];
@@ -92,6 +93,6 @@ fn length(value: Value) -> Value {
 
 /// As shaders do it: times `rsq` of the square. A vector of zeros stays one.
 fn normalize(value: Value) -> Value {
-    let scale = semantics::rsq(evaluate::dot(&value, &value, value.count));
+    let scale = semantics::rsq(OfZero::Largest, evaluate::dot(&value, &value, value.count));
     value.map(|x| semantics::mul(x, scale))
 }

@@ -125,7 +125,15 @@ fn an_effect_is_preprocessed_as_a_whole() {
     assert!(found.contains(&("P16", 11, 15)), "{found:?}");
     // If a file is missing, which may define it, there is none.
     let found = told(&format!("#include \"consts.h\"\n{EFFECT}"));
-    assert_eq!(found, [("P28", 1, 10), ("O1", 23, 21), ("P10", 30, 2)]);
+    assert_eq!(
+        found,
+        [
+            ("P28", 1, 10),
+            ("P33", 12, 5),
+            ("O1", 23, 21),
+            ("P10", 30, 2)
+        ]
+    );
 }
 
 #[test]
@@ -209,10 +217,10 @@ fn what_a_file_is() {
         "mov r0, v0",
         "p5.1.1\nmov r0, v0",
         "char *profile = \"ps_1_1\";",
-        "int main() { asm { mov eax, 1 } }",
     ] {
         assert_eq!(form(listing), Form::Listing, "{listing}");
     }
+    assert_eq!(form("int main() { asm { mov eax, 1 } }"), Form::Source);
     assert_eq!(form("x = asm { mov r0, v0 }"), Form::Effect);
     assert_eq!(form("asm { ; x\n ps.1.1 mov r0, v0 }"), Form::Effect);
     assert_eq!(form("ffff0101 0000ffff"), Form::Tokens(bytecode::Form::Hex));
@@ -315,3 +323,171 @@ const WORDS: [&str; 30] = [
     ")\"",
     "x[] = {0xffff0101, 0x0000ffff};",
 ];
+
+#[test]
+fn strings_that_lines_are_continued_between() {
+    let text = "const char Shader[] =\n\t\"; first a comment\\n\"\\\n\t\"\\n\" \\\n\t// between\n\t\"ps.1.1\\n\"\\\n\"mov r0, v9\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.names(), ["Shader"]);
+    assert_eq!(
+        listing_of(&sources, &file.shaders[0]),
+        "; first a comment\n\nps.1.1\nmov r0, v9\n"
+    );
+    assert_eq!(told(text), [("O1", 6, 10)]);
+}
+
+#[test]
+fn strings_that_only_name_versions() {
+    let text = "\
+        Compile(\"vs_1_1\", \"ps_1_4\\n\");\n\
+        set(\"profiles\", \"vs_1_1 arbvp1 glslv\");\n\
+        test(\"PS_1_4 with two of them\");\n\
+        names = { \"vs_out[10]\", \"ps_1_0 and up\\n\" };\n\
+        real = \"ps.1.1 mov r0, v0\";\n\
+        begun = \"ps.1.1\\nmovv r0, v0\";\n";
+    let (_, file) = opened(text);
+    assert_eq!(file.names(), ["real", "begun"]);
+    assert_eq!(told(text), [("P8", 6, 18)]);
+}
+
+#[test]
+fn files_of_other_languages_without_a_shader() {
+    let texts = [
+        "#include <windows.h>\nint main() { return D3DXCompile(\"vs_1_1\"); }\n",
+        "float4 Main() : POSITION { return 0; }\ntechnique T { pass P { VertexShader = compile vs_1_1 Main(); } }\n",
+    ];
+    for text in texts {
+        assert_eq!(told(text), [("P1", 1, 1)], "{text}");
+        assert!(matches!(format(text.as_bytes()), Layout::Nothing(_)));
+    }
+    // Damaged listings.
+    for text in [
+        "; { in a comment }\nmov r0, v0\n",
+        "{\nps.1.1\nmov r0, v0\n}\n",
+    ] {
+        let (_, file) = opened(text);
+        assert_eq!(
+            (file.form, file.shaders.len()),
+            (Form::Listing, 1),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn macros_that_listings_do_not_have_are_no_errors_of_their_hosts() {
+    let text = "#define trace(args...) f(args)\n#define more(...) g(__VA_ARGS__)\n\
+        pixelshader p = asm { ps.1.1\n mov r0, v0 };\n";
+    assert_eq!(told(text), []);
+}
+
+#[test]
+fn directives_between_strings() {
+    let text = "\
+        const char first[] = \"ps.1.1\\n\"\n\
+        #ifdef FOG\n\
+        \"mov r0, v1\\n\"\n\
+        #endif\n\
+        # if 0 // never\n\
+        \"mul r0, r0, v9\\n\"\n\
+        #if 1\n\
+        #endif\n\
+        #else\n\
+        \"mul r0, r0, v0\\n\";\n\
+        #endif\n\
+        const char second[] =\n\
+        #if defined(A)\n\
+        \"ps.1.1\\nmov r0, v0\\n\"\n\
+        #elif B\n\
+        \"ps.1.1\\nmov r0, c1\\n\"\n\
+        #endif\n\
+        ;\n\
+        const char third[] = \"ps.1.1\\nmov r0, v0\\n\"\n\
+        #if A\n\
+        \"mul r0, r0, c0\\n\"\n\
+        #else\n\
+        \"mul r0, r0, c1\\n\"\n\
+        #endif\n\
+        \"mul r0, r0, c2\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.names(), ["first", "second", "second#2", "third"]);
+    let listings: Vec<_> = file
+        .shaders
+        .iter()
+        .map(|s| listing_of(&sources, s))
+        .collect();
+    assert_eq!(
+        listings,
+        [
+            "ps.1.1\nmov r0, v1\nmul r0, r0, v0\n",
+            "ps.1.1\nmov r0, v0\n",
+            "ps.1.1\nmov r0, c1\n",
+            "ps.1.1\nmov r0, v0\nmul r0, r0, c0\nmul r0, r0, c2\n",
+        ]
+    );
+}
+
+#[test]
+fn conditions_within_each_other_take_no_time() {
+    let nested = "\"a\"\n#if 0\n".repeat(20_000);
+    let closed = format!("{nested}{}", "#endif\n".repeat(20_000));
+    let elses = "\"a\"\n#else\n".repeat(20_000);
+    for text in [nested, closed, elses] {
+        let begun = std::time::Instant::now();
+        host::scan(text.as_bytes());
+        // A second where each condition is gone through once, hours where all of them are for each.
+        assert!(begun.elapsed().as_secs() < 60);
+    }
+}
+
+#[test]
+fn shaders_of_later_models_beside_others() {
+    let text = "s = \"ps_2_0\\ndcl t0\\n\";\nDWORD v[] = { 0xFFFE0300, 0x0000FFFF };\n\
+        t = \"vs_2_x\\nmov oPos, v0\\n\"; u = \"ps.1.1\\nmov r0, v0\\n\";\n";
+    let (sources, file) = opened(text);
+    assert_eq!(file.names(), ["u"]);
+    let place = |d: &Diagnostic| {
+        let at = sources.locate(d.span).unwrap();
+        (d.rule.id, d.severity, at.line, at.column)
+    };
+    let places: Vec<_> = file.diagnostics.iter().map(place).collect();
+    let warning = crate::diagnostic::Severity::Warning;
+    assert_eq!(
+        places,
+        [
+            ("P3", warning, 1, 6),
+            ("S13", warning, 2, 15),
+            ("P3", warning, 3, 6)
+        ]
+    );
+    // Where there is no other, it is what is wrong with the file.
+    assert_eq!(told("s = \"ps_2_0\\ndcl t0\\n\";\n"), [("P3", 1, 6)]);
+}
+
+#[test]
+fn lines_that_end_in_a_carriage_return_alone() {
+    assert_eq!(
+        told("; water\rps.1.1\rtex t0 ; base\rmul r0, t0, t4\r"),
+        [("O1", 4, 13)]
+    );
+    let laid_out = format(b"ps.1.1\rmov r0,v0\r");
+    assert_eq!(laid_out, Layout::Done(b"ps.1.1\nmov r0, v0\n".to_vec()));
+    // Not in tokens.
+    let words = [
+        0xFFFF_0101_u32,
+        0x51,
+        0xA00F_0000,
+        0x0D0D_0D0D,
+        0,
+        0,
+        0,
+        0xFFFF,
+    ];
+    let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
+    let mut sources = SourceMap::new();
+    let file = open(&mut sources, "a", bytes, &preprocess::Options::default()).unwrap();
+    let Text::Tokens(stream) = &file.shaders[0].text else {
+        panic!("tokens are expected");
+    };
+    assert_eq!(stream.words, words);
+}

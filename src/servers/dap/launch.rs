@@ -14,7 +14,7 @@ use texcrd::diagnostic::{Diagnostic, Severity, SourceMap, any_error};
 use texcrd::extract::{self, NotOne};
 use texcrd::kernel::{self, Kernel};
 use texcrd::listing;
-use texcrd::policy::Dialect;
+use texcrd::policy::{Dialect, Model};
 use texcrd::preprocess::{self, Definition, Folders};
 use texcrd::program::Program;
 use texcrd::scene::{DirectoryResolver, LoadOptions, RenderOptions, Scene};
@@ -83,13 +83,22 @@ impl Loaded {
             Some(name) => name.parse().map_err(|e| format!("dialect: {e}"))?,
             None => Dialect::default(),
         };
+        let model = match &arguments.model {
+            Some(name) => name.parse().map_err(|e| format!("model: {e}"))?,
+            None => Model::default(),
+        };
         match is_scene(&path) {
-            true => Self::scene(arguments, &path, dialect),
-            false => Self::listing(arguments, &path, dialect),
+            true => Self::scene(arguments, &path, dialect, model),
+            false => Self::listing(arguments, &path, dialect, model),
         }
     }
 
-    fn scene(arguments: LaunchArguments, path: &Path, dialect: Dialect) -> Result<Self, Problem> {
+    fn scene(
+        arguments: LaunchArguments,
+        path: &Path,
+        dialect: Dialect,
+        model: Model,
+    ) -> Result<Self, Problem> {
         let name = path.display().to_string();
         let one = match (arguments.pixel, arguments.vertex) {
             (Some(_), None) => Ok(()),
@@ -111,7 +120,16 @@ impl Loaded {
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolver = DirectoryResolver::new(folder);
-        let scene = Scene::load(&name, &read(path)?, &resolver, &LoadOptions { dialect });
+        let scene = Scene::load(
+            &name,
+            &read(path)?,
+            &resolver,
+            &LoadOptions {
+                dialect,
+                model,
+                ..LoadOptions::default()
+            },
+        );
         let scene = scene.map_err(|error| refused(&name, error.sources, error.diagnostics))?;
         Ok(Self {
             arguments,
@@ -119,7 +137,12 @@ impl Loaded {
         })
     }
 
-    fn listing(arguments: LaunchArguments, path: &Path, dialect: Dialect) -> Result<Self, Problem> {
+    fn listing(
+        arguments: LaunchArguments,
+        path: &Path,
+        dialect: Dialect,
+        model: Model,
+    ) -> Result<Self, Problem> {
         let of_scenes = [
             ("pixel", arguments.pixel.is_some()),
             ("vertex", arguments.vertex.is_some()),
@@ -138,8 +161,12 @@ impl Loaded {
                 Refused::Words(why) => format!("{name}: {why}").into(),
                 Refused::Diagnostics(found) => refused(&name, std::mem::take(&mut sources), found),
             })?;
-        let kernel = kernel::lower(&program, &kernel::Options::default())
-            .map_err(|error| format!("{name}: {error}"))?;
+        let options = kernel::Options {
+            model,
+            ..kernel::Options::default()
+        };
+        let kernel =
+            kernel::lower(&program, &options).map_err(|error| format!("{name}: {error}"))?;
         let mut given = Given::default();
         for (register, numbers) in arguments.set.iter().flatten() {
             (given.set(program.version, register, numbers.list()))

@@ -171,7 +171,7 @@ fn files_that_are_no_listings_are_named() {
         (b"\x01\x01\xFE\xFF\x01\0\0\0", "tokens"),
         (b"\x04\x01\xFF\xFF\x42\0\0\0", "tokens"),
         (b"\xFF\xFEp\0s\0.\0", "UTF-16"),
-        (b"a\0b\0c", "binary"),
+        (b"a\0\0bc", "binary"),
         (b"", "empty"),
         (b" \r\n\t", "empty"),
         (b"; only this\n", "only comments"),

@@ -8,6 +8,7 @@ mod round_trip;
 mod scans;
 mod tokens;
 mod unsure;
+mod unusual;
 
 use super::{Parsed, apply_fixes, parse};
 use crate::diagnostic::{Diagnostic, SourceMap};

@@ -54,6 +54,7 @@ pub fn cube_from_faces(faces: [Texture; 6]) -> Result<Texture, TextureError> {
     Ok(Texture {
         kind: TextureKind::Cube,
         format,
+        signed: faces[0].signed,
         levels,
         texels,
     })
@@ -115,6 +116,7 @@ pub fn cube_from_cross(cross: Texture) -> Result<Texture, TextureError> {
     Ok(Texture {
         kind: TextureKind::Cube,
         format: cross.format,
+        signed: cross.signed,
         levels,
         texels,
     })
@@ -182,6 +184,7 @@ pub fn cube_from_equirectangular(
     Ok(Texture {
         kind: TextureKind::Cube,
         format,
+        signed: picture.signed,
         levels,
         texels,
     })

@@ -4,7 +4,7 @@ use ddsfile::{Caps2, D3D10ResourceDimension, Dds, DxgiFormat, MiscFlag};
 
 use crate::texture::format::{Channel, Layout};
 use crate::texture::storage::{lay_out, mip_size};
-use crate::texture::{Format, Texture, TextureError, TextureKind};
+use crate::texture::{Format, Signed, Texture, TextureError, TextureKind};
 
 fn broken(problem: impl std::fmt::Display) -> TextureError {
     TextureError::File {
@@ -23,6 +23,14 @@ fn broken(problem: impl std::fmt::Display) -> TextureError {
 /// [`TextureError::File`] when the file is broken, cut off, holds an array, an incomplete cube or a format that Direct3D 8
 /// textures do not have; the size limits of textures. Memory is taken in proportion to the bytes given.
 pub fn decode_dds(bytes: &[u8]) -> Result<Texture, TextureError> {
+    decode_dds_signed(bytes, Signed::default())
+}
+
+/// As [`decode_dds`], with what the codes of signed channels stand for.
+///
+/// # Errors
+/// As [`decode_dds`].
+pub fn decode_dds_signed(bytes: &[u8], signed: Signed) -> Result<Texture, TextureError> {
     let dds = Dds::read(bytes).map_err(broken)?;
     let header = &dds.header;
     let (kind, format) = match &dds.header10 {
@@ -72,7 +80,7 @@ pub fn decode_dds(bytes: &[u8]) -> Result<Texture, TextureError> {
             rest = after;
         }
     }
-    Texture::from_raw(kind, format, size, &levels)
+    Texture::from_raw_signed(kind, format, size, &levels, signed)
 }
 
 /// Flags and masks of the file's pixel format. The container library forgets the flags of bump formats, and with them

@@ -12,7 +12,7 @@ use super::{Format, MAX_BYTES, MAX_EDGE, Texture, TextureError, TextureKind};
 
 pub use cube::{cube_from_cross, cube_from_equirectangular, cube_from_faces};
 #[cfg(feature = "scene")]
-pub use dds::decode_dds;
+pub use dds::{decode_dds, decode_dds_signed};
 
 /// How many times larger than its file a picture may be. The densest honest case is a PNG of one colour and one bit a
 /// pixel: compression 1032:1, times 32 for what a pixel becomes.

@@ -1,7 +1,7 @@
 //! What a sample was made of, for debuggers: the same steps as sampling, told instead of blended.
 
 use super::{Choice, Position, taps};
-use crate::texture::{Filter, Sampler, Texture};
+use crate::texture::{Filter, Sampler, Texture, Weights};
 
 /// One texel of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,12 +33,25 @@ pub struct Footprint {
 
 /// Which texels [`super::sample_at`] with the same arguments reads, and how much of each. For debuggers.
 pub fn footprint(texture: &Texture, sampler: &Sampler, coord: [f32; 3], lod: f32) -> Footprint {
-    let choice = Choice::new(texture, sampler, lod);
+    match sampler.weights {
+        Weights::Full => of::<false>(texture, sampler, coord, lod),
+        Weights::EightBits => of::<true>(texture, sampler, coord, lod),
+    }
+}
+
+fn of<const COARSE: bool>(
+    texture: &Texture,
+    sampler: &Sampler,
+    coord: [f32; 3],
+    lod: f32,
+) -> Footprint {
+    let choice = Choice::new::<COARSE>(texture, sampler, lod);
     let position = Position::new(texture.kind, coord);
     let mut found = Vec::new();
     for (number, share) in choice.levels() {
         let level = &texture.levels[number];
-        taps(texture.kind, sampler, level, position, choice.filter).each(|face, texel, weight| {
+        let taps = taps::<COARSE>(texture.kind, sampler, level, position, choice.filter);
+        taps.each(|face, texel, weight| {
             found.push(Tap {
                 face,
                 level: number as u32,

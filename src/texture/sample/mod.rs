@@ -4,6 +4,8 @@
 //! along x first, then y, then z, then between mip levels. Four-byte texels are filtered as codes 0 to 255 and divided
 //! by 255 once at the end.
 //!
+//! Weights of 8 bits are compiled apart (`COARSE`), so that full ones need not ask for them.
+//!
 //! A sample goes through three steps, each used by every way to sample: [`Choice`] (filter and levels from λ),
 //! [`Position`] (face and coordinate from the vector), [`Texel taps`](Taps) (which texels of a level, how much of each).
 
@@ -13,7 +15,7 @@ mod tests;
 
 use super::cube::{AcrossEdge, across_edge, direction_to_face, project_onto};
 use super::storage::{FloatStore, Level, PackedStore, Store, Texels};
-use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind};
+use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind, Weights};
 
 pub use footprint::{Footprint, Tap, footprint};
 
@@ -38,6 +40,16 @@ fn lerp(a: [f32; 4], b: [f32; 4], f: f32) -> [f32; 4] {
     std::array::from_fn(|channel| a[channel] + f * (b[channel] - a[channel]))
 }
 
+/// The share of the second of two texels or levels, as exact as the weights are.
+#[inline(always)]
+fn share<const COARSE: bool>(f: f32) -> f32 {
+    if COARSE {
+        (f * 256.0 + 0.5).floor() / 256.0
+    } else {
+        f
+    }
+}
+
 /// Filter and mip levels, as λ decides them.
 #[derive(Clone, Copy)]
 struct Choice {
@@ -49,7 +61,7 @@ struct Choice {
 }
 
 impl Choice {
-    fn new(texture: &Texture, sampler: &Sampler, lambda: f32) -> Self {
+    fn new<const COARSE: bool>(texture: &Texture, sampler: &Sampler, lambda: f32) -> Self {
         let lambda = if lambda.is_nan() { 0.0 } else { lambda };
         let filter = if lambda > 0.0 {
             sampler.min
@@ -74,7 +86,7 @@ impl Choice {
                     filter,
                     first,
                     second: last.min(first + 1),
-                    blend: level - first as f32,
+                    blend: share::<COARSE>(level - first as f32),
                 }
             }
         }
@@ -136,8 +148,8 @@ impl Pair {
     };
 
     #[inline(always)]
-    fn new(u: f32, n: u32, mode: AddressMode, filter: Filter) -> Self {
-        let (i, f) = split(u, n, filter);
+    fn new<const COARSE: bool>(u: f32, n: u32, mode: AddressMode, filter: Filter) -> Self {
+        let (i, f) = split::<COARSE>(u, n, filter);
         let near = address(i, n, mode);
         let far = match filter {
             Filter::Point => near,
@@ -160,7 +172,7 @@ fn floor(x: f32) -> i32 {
 
 /// The index before which a coordinate lies and the share of the next one; indices are not yet addressed.
 #[inline(always)]
-fn split(u: f32, n: u32, filter: Filter) -> (i32, f32) {
+fn split<const COARSE: bool>(u: f32, n: u32, filter: Filter) -> (i32, f32) {
     // Far beyond any texel that a float can tell apart from its neighbour; keeps i + 1 and −1 − i in range.
     const FAR: f32 = 1_073_741_824.0;
     let x = u * n as f32;
@@ -169,7 +181,7 @@ fn split(u: f32, n: u32, filter: Filter) -> (i32, f32) {
         Filter::Linear => {
             let x = (x - 0.5).clamp(-FAR, FAR);
             let i = floor(x);
-            (i, x - i as f32)
+            (i, share::<COARSE>(x - i as f32))
         }
     }
 }
@@ -212,7 +224,7 @@ enum Taps {
 
 /// Finds the texels that `filter` reads around a position in one level.
 #[inline(always)]
-fn taps(
+fn taps<const COARSE: bool>(
     kind: TextureKind,
     sampler: &Sampler,
     level: &Level,
@@ -220,7 +232,7 @@ fn taps(
     filter: Filter,
 ) -> Taps {
     let Position { face, uvw } = position;
-    let pair = |axis: usize, mode| Pair::new(uvw[axis], level.size[axis], mode, filter);
+    let pair = |axis: usize, mode| Pair::new::<COARSE>(uvw[axis], level.size[axis], mode, filter);
     let [u, v, w] = sampler.address;
     let axes = match kind {
         TextureKind::Texture2D => [pair(0, u), pair(1, v), Pair::FIRST],
@@ -228,7 +240,7 @@ fn taps(
         TextureKind::Cube => {
             if sampler.seamless
                 && filter == Filter::Linear
-                && let Some(edge) = edge_taps(level, position)
+                && let Some(edge) = edge_taps::<COARSE>(level, position)
             {
                 return edge;
             }
@@ -243,7 +255,7 @@ fn taps(
 }
 
 /// The four texels around a position near the edge of a cube face; none if all lie on the face.
-fn edge_taps(
+fn edge_taps<const COARSE: bool>(
     level: &Level,
     Position {
         face,
@@ -251,7 +263,7 @@ fn edge_taps(
     }: Position,
 ) -> Option<Taps> {
     let n = level.size[0];
-    let ((x, fx), (y, fy)) = (split(u, n, Filter::Linear), split(v, n, Filter::Linear));
+    let [(x, fx), (y, fy)] = [u, v].map(|u| split::<COARSE>(u, n, Filter::Linear));
     let inside = |i: i32| i >= 0 && i + 1 < n as i32;
     if inside(x) && inside(y) {
         return None;
@@ -386,9 +398,9 @@ impl Taps {
     }
 }
 
-/// A texture with its sampler, compiled for one way of keeping texels.
+/// A texture with its sampler, compiled for one way of keeping texels and one of weighing them.
 #[derive(Clone, Copy)]
-struct Reader<'a, S> {
+struct Reader<'a, S, const COARSE: bool> {
     store: S,
     texture: &'a Texture,
     sampler: &'a Sampler,
@@ -396,7 +408,7 @@ struct Reader<'a, S> {
     border: [f32; 4],
 }
 
-impl<'a, S: Store> Reader<'a, S> {
+impl<'a, S: Store, const COARSE: bool> Reader<'a, S, COARSE> {
     fn new(store: S, texture: &'a Texture, sampler: &'a Sampler) -> Self {
         let border = texture
             .format
@@ -419,7 +431,11 @@ impl<'a, S: Store> Reader<'a, S> {
         filter: Filter,
     ) -> [f32; 4] {
         let level = &self.texture.levels[level];
-        taps(kind, self.sampler, level, position, filter).value(self.store, level, self.border)
+        taps::<COARSE>(kind, self.sampler, level, position, filter).value(
+            self.store,
+            level,
+            self.border,
+        )
     }
 
     #[inline(always)]
@@ -434,6 +450,11 @@ impl<'a, S: Store> Reader<'a, S> {
             );
         }
         value.map(|value| value / S::SCALE)
+    }
+
+    fn sample_at(&self, coord: [f32; 3], lod: f32) -> [f32; 4] {
+        let choice = Choice::new::<COARSE>(self.texture, self.sampler, lod);
+        self.sample(self.texture.kind, coord, choice)
     }
 
     fn sample_lanes<const N: usize>(&self, coords: &[[f32; N]; 3], out: &mut [[f32; N]; 4]) {
@@ -466,7 +487,7 @@ impl<'a, S: Store> Reader<'a, S> {
                 levels_of_detail(texture, sampler, &quad)
             };
             for (lane, lambda) in (first..end).zip(lambdas) {
-                let choice = Choice::new(texture, sampler, lambda);
+                let choice = Choice::new::<COARSE>(texture, sampler, lambda);
                 let value = self.sample(kind, at(lane), choice);
                 for (channel, value) in out.iter_mut().zip(value) {
                     channel[lane] = value;
@@ -474,6 +495,26 @@ impl<'a, S: Store> Reader<'a, S> {
             }
         }
     }
+}
+
+/// Calls a method of the reader that is compiled for a texture and its weights.
+macro_rules! read {
+    ($texture:expr, $sampler:expr, $($call:tt)*) => {
+        match (&$texture.texels, $sampler.weights) {
+            (Texels::Packed(words), Weights::Full) => {
+                Reader::<_, false>::new(PackedStore(words), $texture, $sampler).$($call)*
+            }
+            (Texels::Packed(words), Weights::EightBits) => {
+                Reader::<_, true>::new(PackedStore(words), $texture, $sampler).$($call)*
+            }
+            (Texels::Float(texels), Weights::Full) => {
+                Reader::<_, false>::new(FloatStore(texels), $texture, $sampler).$($call)*
+            }
+            (Texels::Float(texels), Weights::EightBits) => {
+                Reader::<_, true>::new(FloatStore(texels), $texture, $sampler).$($call)*
+            }
+        }
+    };
 }
 
 /// Samples a texture for N lanes at once.
@@ -494,14 +535,7 @@ pub fn sample_quads<const N: usize>(
         *out = UNBOUND.map(|value| [value; N]);
         return;
     };
-    match &texture.texels {
-        Texels::Packed(words) => {
-            Reader::new(PackedStore(words), texture, sampler).sample_lanes(coords, out)
-        }
-        Texels::Float(texels) => {
-            Reader::new(FloatStore(texels), texture, sampler).sample_lanes(coords, out)
-        }
-    }
+    read!(texture, sampler, sample_lanes(coords, out))
 }
 
 /// Samples a texture at one coordinate with a given level of detail λ (no bias is added to it).
@@ -516,15 +550,7 @@ pub fn sample_at(
     let Some(texture) = texture else {
         return UNBOUND;
     };
-    let choice = Choice::new(texture, sampler, lod);
-    match &texture.texels {
-        Texels::Packed(words) => {
-            Reader::new(PackedStore(words), texture, sampler).sample(texture.kind, coord, choice)
-        }
-        Texels::Float(texels) => {
-            Reader::new(FloatStore(texels), texture, sampler).sample(texture.kind, coord, choice)
-        }
-    }
+    read!(texture, sampler, sample_at(coord, lod))
 }
 
 /// λ of each pixel of a 2×2 quad, bias included: log2 of the longer of its two steps, in texels of level 0.

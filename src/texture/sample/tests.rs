@@ -38,6 +38,33 @@ fn red(texture: &Texture, sampler: &Sampler, u: f32) -> f32 {
     sample_at(Some(texture), sampler, [u, 0.5, 0.5], 0.0)[0]
 }
 
+/// Expected numbers: shares rounded to 1/256 by hand.
+#[test]
+fn weights_of_eight_bits_round_the_shares() {
+    let texture = row(&[0.0, 1.0]);
+    let sampler = Sampler {
+        weights: Weights::EightBits,
+        ..both(Filter::Linear)
+    };
+    // x = 2u − 0.5 = 0.3: 76.8/256 → 77/256; 0.501 / 256 rounds up, 0.499 / 256 down to the first texel alone.
+    for (x, share) in [(0.3, 77.0), (0.501 / 256.0, 1.0), (0.499 / 256.0, 0.0)] {
+        let u = (x + 0.5) / 2.0;
+        assert!(
+            (red(&texture, &sampler, u) - share / 256.0).abs() < 1e-7,
+            "{x}"
+        );
+    }
+    // λ = 0.4: 102.4/256 of the second level.
+    let sampler = Sampler {
+        mip: MipFilter::Linear,
+        ..sampler
+    };
+    let between = sample_at(Some(&numbered_levels()), &sampler, [0.5; 3], 0.4)[0];
+    assert_eq!(between, 102.0 / 256.0);
+    let levels = footprint(&numbered_levels(), &sampler, [0.5; 3], 0.4).levels;
+    assert_eq!(levels, [(0, 154.0 / 256.0), (1, 102.0 / 256.0)]);
+}
+
 #[test]
 fn no_texture_reads_black_and_opaque() {
     let mut out = [[7.0; 4]; 4];
@@ -458,10 +485,10 @@ fn any_sampler() -> impl Strategy<Value = Sampler> {
         mips,
         any::<f32>(),
         0u32..6,
-        any::<bool>(),
+        0u8..4,
     )
         .prop_map(
-            |(address, mag, min, mip, lod_bias, max_mip_level, seamless)| Sampler {
+            |(address, mag, min, mip, lod_bias, max_mip_level, flags)| Sampler {
                 address,
                 mag,
                 min,
@@ -469,7 +496,12 @@ fn any_sampler() -> impl Strategy<Value = Sampler> {
                 lod_bias,
                 max_mip_level,
                 border: [0.5; 4],
-                seamless,
+                seamless: flags & 1 == 1,
+                weights: if flags & 2 == 2 {
+                    Weights::EightBits
+                } else {
+                    Weights::Full
+                },
             },
         )
 }

@@ -16,9 +16,12 @@ B6 ok: ps.1.4 | dp4 r0, c0, c1 *5
 S9 ok: vs.1.1 | dp4 oPos.x, v0, c0 | dp4 oPos.y, v0, c1 | dp4 oPos.z, v0, c2 | dp4 oPos.w, v0, c3
 S10 d3d9: vs.1.1 | mov oPos, v0 | mov {oT0.y}, v7
 O1: ps.1.4 | mov r0, {c8}
+O1: vs.1.0 | mov oPos, v0 | mov {a1.x}, v0
 O1: vs.1.1 | mov r9, v0 | mov r10, v0 | mov r11, v0 | m4x4 oPos, v0, {r9}
 O1 ok: ps.1.4 | mov r0, c7
 O2: vs.1.1 | mov {v0}, c0 | mov oPos, v0
+O2: vs.1.1 | mov {c255}, v0 | mov oPos, v0
+O3: ps.1.3 | mov r0, v0 | cnd r0, {a0.a}, v0, v1
 O4: vs.1.0 | mov oPos, v0 | mov {a0.x}, v1.x
 O5: vs.1.1 | mov oPos, v0 | mov {a0}, v0
 O5: vs.1.1 | mov oPos, v0 | mov r0, {c[a0.x + 2]} | mov r0, c[a0.x + 2]

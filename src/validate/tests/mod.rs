@@ -3,6 +3,7 @@
 mod cases;
 mod dialects;
 mod listings;
+mod room;
 
 use crate::diagnostic::{Diagnostic, SourceMap};
 use crate::listing;
@@ -11,7 +12,7 @@ use crate::program::Program;
 use crate::rules::Example;
 
 /// The program of a listing that can be read.
-fn program(text: &str) -> Program {
+pub(in crate::validate) fn program(text: &str) -> Program {
     let mut map = SourceMap::new();
     let parsed = crate::syntax::parse(map.add("listing", text).unwrap());
     let said: Vec<&str> = parsed

@@ -2,6 +2,7 @@
 
 mod contract;
 mod generated;
+mod models;
 mod opcodes;
 mod readable;
 mod show;

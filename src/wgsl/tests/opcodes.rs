@@ -231,6 +231,7 @@ fn projected_stages() {
             Projection::None,
             Projection::None,
         ],
+        ..kernel::Options::default()
     };
     let shader = Shader::projected(
         "ps.1.1\ntex t0\ntex t1\ntexbem t2, t1\nadd r0, t0, t2\n",

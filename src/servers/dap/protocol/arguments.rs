@@ -37,6 +37,8 @@ pub(in crate::servers) struct LaunchArguments {
     pub set: Option<BTreeMap<String, Numbers>>,
     /// By whose rules.
     pub dialect: Option<String>,
+    /// With which numbers pixel shaders compute.
+    pub model: Option<String>,
     /// Of a file with several listings, the one that is meant: its name, or its number from 1.
     pub shader: Option<String>,
     /// Macros, each `NAME` or `NAME=VALUE`.

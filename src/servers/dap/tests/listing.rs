@@ -409,6 +409,7 @@ fn what_is_wrong_with_a_listing_is_told_with_its_place() {
         (json!({ "program": program, "pixel": [1, 2] }), "pixel"),
         (json!({ "program": folder.path("none.psh") }), "none.psh"),
         (json!({ "program": program, "dialect": "latin" }), "latin"),
+        (json!({ "program": program, "model": "nv20" }), "r200"),
         (json!({ "program": folder.path("none.toml") }), "pixel"),
     ] {
         client.refused("launch", launch, words);
