@@ -350,12 +350,19 @@ impl RegisterFile {
     /// The file of the registers that begin with the letters of this name, in either case, and the digits behind
     /// them, which may be none. `None` if it is not letters of a file with digits alone behind them.
     pub fn parts(name: &[u8]) -> Option<(Self, &[u8])> {
-        let digit = name.iter().position(u8::is_ascii_digit);
-        let (letters, digits) = name.split_at_checked(digit.unwrap_or(name.len()))?;
-        let key = prefix_key(letters)?;
-        let row = FILES.get(PREFIX_KEYS.iter().position(|other| *other == key)?)?;
+        // Letters are one or two.
+        let letters = match name {
+            [_] | [_, b'0'..=b'9', ..] => 1,
+            _ => 2,
+        };
+        let (letters, digits) = name.split_at_checked(letters)?;
+        let key = Some(prefix_key(letters)?);
         let whole = digits.iter().all(u8::is_ascii_digit);
-        whole.then_some((row.file, digits))
+        let row = PREFIX_KEYS
+            .iter()
+            .position(|other| *other == key)
+            .filter(|_| whole);
+        Some((FILES.get(row?)?.file, digits))
     }
 
     /// The set that holds only this file.
@@ -376,16 +383,14 @@ const fn prefix_key(letters: &[u8]) -> Option<u16> {
     }
 }
 
-/// [`prefix_key`] of each file; 0, which is none, where registers have names instead of numbers.
-static PREFIX_KEYS: [u16; FILES.len()] = {
-    let mut keys = [0; FILES.len()];
+/// [`prefix_key`] of each file whose registers have numbers.
+static PREFIX_KEYS: [Option<u16>; FILES.len()] = {
+    let mut keys = [None; FILES.len()];
     let mut i = 0;
     while i < FILES.len() {
         if !matches!(FILES[i].file, RegisterFile::RastOut) {
-            keys[i] = match prefix_key(FILES[i].prefix.as_bytes()) {
-                Some(key) => key,
-                None => panic!("a prefix is one or two letters"),
-            };
+            keys[i] = prefix_key(FILES[i].prefix.as_bytes());
+            assert!(keys[i].is_some(), "a prefix is one or two letters");
         }
         i += 1;
     }

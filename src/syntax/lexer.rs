@@ -105,17 +105,9 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
         first |= new_line;
         rest = after;
         let start = lexer.offset(rest);
-        let mut token = Token {
-            kind: Kind::End,
-            start,
-            end: start,
-            line: lexer.line,
-            first: true,
-            stem: Stem::NONE,
-        };
         // `any_token` fails only at the end of the text.
         let Ok((after, kind)) = any_token(rest) else {
-            break token;
+            break start;
         };
         if tokens.len() == most {
             let message = format!(
@@ -125,15 +117,30 @@ fn lex_up_to(text: &[u8], base: u32, most: usize, reports: &mut Reports) -> Lexe
             lexer
                 .reports
                 .push(Diagnostic::error(&rules::NOT_A_LISTING, span, message));
-            break token;
+            break start;
         }
-        (token.kind, token.end, token.first) = (kind, lexer.offset(after), first);
-        if kind == Kind::Word {
-            token.stem = Stem::of(rest.get(..rest.len() - after.len()).unwrap_or(rest));
-        }
-        tokens.push(token);
+        let word = rest.get(..rest.len() - after.len()).unwrap_or(rest);
+        tokens.push(Token {
+            kind,
+            start,
+            end: lexer.offset(after),
+            line: lexer.line,
+            first,
+            stem: match kind {
+                Kind::Word => Stem::of(word),
+                _ => Stem::NONE,
+            },
+        });
         rest = after;
         first = false;
+    };
+    let end = Token {
+        kind: Kind::End,
+        start: end,
+        end,
+        line: lexer.line,
+        first: true,
+        stem: Stem::NONE,
     };
     tokens.push(end);
     Lexed {
