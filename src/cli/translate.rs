@@ -160,7 +160,7 @@ fn read(
     let mut lowered = Vec::new();
     for checked in all {
         let Some(program) = checked.program else {
-            anstream::eprint!("{}", diagnostics::render(&sources, &found));
+            anstream::eprint!("{}", diagnostics::render(sources, &found));
             return Err(Failure::Input(format!(
                 "{}: this is no whole shader",
                 files::name(path)
