@@ -10,7 +10,7 @@ use crate::isa::register::{Access, VERTEX_CONSTANTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
-use crate::program::{Destination, Register, Source};
+use crate::program::{Destination, Register, Source, Statement};
 use crate::rules::model::Code;
 
 /// How many constants software vertex processing has; there is no storage beyond.
@@ -62,6 +62,31 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
         instruction(listing, line, form, report);
     }
     address_is_written(listing, report);
+}
+
+/// O1 and, of `def`, O25 on what no assembler of the version takes, wherever it stands. It took a `def` of any constant.
+pub(super) fn can_be_named(listing: &Listing, report: &mut Report) {
+    let mut judge = |register: Register, span: Span, code: Code| {
+        let Register { file, index, .. } = register;
+        if !file.can_be_named(index, listing.version) {
+            register_exists(listing, register, span, code, report);
+        }
+    };
+    for statement in &listing.program.statements {
+        match statement {
+            Statement::Def(def) if def.register.file == RegisterFile::Const => {}
+            Statement::Def(def) => judge(def.register, def.register_span, Code::O25),
+            Statement::Dcl(dcl) => judge(dcl.register, dcl.span, Code::O1),
+            Statement::Instruction(instruction) => {
+                if let Some(destination) = &instruction.destination {
+                    judge(destination.register, destination.span, Code::O1);
+                }
+                for source in &instruction.sources {
+                    judge(source.register, source.span, Code::O1);
+                }
+            }
+        }
+    }
 }
 
 /// O1, O4, O26; `def` has O25. Returns whether it does exist.

@@ -15,7 +15,7 @@ use texcrd::bytecode;
 use texcrd::generate::Random;
 
 /// No input may take longer than this, unoptimised on a busy machine.
-const LONGEST: Duration = Duration::from_secs(20);
+const LONGEST: Duration = Duration::from_secs(120);
 
 /// What inputs a run has found that do not survive, by seed.
 #[derive(Default)]
