@@ -5,7 +5,7 @@
 
 use std::io;
 use texcrd::bytecode::{self, Declaration, Stream};
-use texcrd::diagnostic::{Diagnostic, SourceMap, Span, any_error};
+use texcrd::diagnostic::{Diagnostic, SourceMap, Span};
 use texcrd::exec::{Environment, Machine, bind_constants};
 use texcrd::extract::{self, Layout, Text};
 use texcrd::kernel::{self, Slot};
