@@ -1,8 +1,8 @@
 //! A program as the rules look at it: lines with their form, phase and place in a pair.
 
+use super::operands::is_one_number;
 use crate::diagnostic::Span;
 use crate::isa::opcode::ModifierRule;
-use crate::isa::register::{OFOG, OPTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, ShaderKind, SourceModifier, Version, VersionSet, WriteMask,
 };
@@ -167,11 +167,11 @@ impl<'p> Listing<'p> {
         }
     }
 
-    /// Whether a statement before a place, which could not be read, may have written a register.
+    /// Whether a statement before a place or at it, which could not be read, may have written a register.
     pub(super) fn hides_write(&self, register: Register, before: Span) -> bool {
         let at = |register| self.unread.first.get(&register);
         let mut starts = [at(None), at(Some(register))].into_iter().flatten();
-        starts.any(|start| *start < before.start)
+        starts.any(|start| *start <= before.start)
     }
 
     /// Whether a statement that could not be read may be a texture instruction.
@@ -311,9 +311,7 @@ impl Line<'_> {
 
 /// The components of a destination that have an effect: `oFog` and `oPts` are one number, x if no mask is written.
 fn used(destination: Destination) -> WriteMask {
-    let one_number = destination.register.file == RegisterFile::RastOut
-        && matches!(destination.register.index, OFOG | OPTS);
-    if one_number && destination.mask == WriteMask::ALL {
+    if is_one_number(destination.register) && destination.mask == WriteMask::ALL {
         WriteMask::X
     } else {
         destination.mask

@@ -6,7 +6,7 @@ use super::report::Report;
 use crate::diagnostic::Span;
 use crate::isa::enumerate;
 use crate::isa::opcode::{ModifierRule, Slots};
-use crate::isa::register::{Access, VERTEX_CONSTANTS};
+use crate::isa::register::{Access, OFOG, OPTS, VERTEX_CONSTANTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
@@ -185,6 +185,18 @@ fn check_destination(
         return;
     }
     if shape.files.contains(register.file) {
+        let early = listing.version == Version::Ps14 && line.phase == Phase::First;
+        if early && opcode == Opcode::TexKill {
+            first_phase_register(line, register, span, report);
+        }
+        if is_one_number(register) && destination.mask != WriteMask::ALL {
+            report.breach(
+                Code::O24Number,
+                span,
+                format!("{register} is one number and takes no mask"),
+                format!("write {register}"),
+            );
+        }
         return;
     }
     let code = match (form.class, register.file) {
@@ -215,6 +227,11 @@ fn check_destination(
         ),
     };
     report.breach(code, span, message, help);
+}
+
+/// Whether a register is `oFog` or `oPts`.
+pub(super) fn is_one_number(register: Register) -> bool {
+    register.file == RegisterFile::RastOut && matches!(register.index, OFOG | OPTS)
 }
 
 fn only_read(file: RegisterFile) -> &'static str {
@@ -282,7 +299,7 @@ fn check_source(
         return;
     }
     if listing.version == Version::Ps14 && line.phase == Phase::First {
-        first_phase_source(line, register, span, report);
+        first_phase_register(line, register, span, report);
     }
 }
 
@@ -345,7 +362,7 @@ fn wrong_source(
 }
 
 /// O9, O11: what is there only after `phase`.
-fn first_phase_source(line: &Line, register: Register, span: Span, report: &mut Report) {
+fn first_phase_register(line: &Line, register: Register, span: Span, report: &mut Report) {
     match register.file {
         RegisterFile::Input => report.breach(
             Code::O9,
@@ -353,12 +370,19 @@ fn first_phase_source(line: &Line, register: Register, span: Span, report: &mut 
             format!("{register} is read before phase"),
             "colours are read after phase; coordinates come in at any time, by texcrd from t#",
         ),
-        RegisterFile::Temp if line.instruction.opcode == Opcode::TexLd => report.breach(
-            Code::O11Phase,
-            span,
-            format!("texld reads {register} before phase"),
-            "before phase texld reads t#; move it behind phase to read what was computed",
-        ),
+        RegisterFile::Temp
+            if matches!(line.instruction.opcode, Opcode::TexLd | Opcode::TexKill) =>
+        {
+            let name = line.mnemonic();
+            report.breach(
+                Code::O11Phase,
+                span,
+                format!("{name} reads {register} before phase"),
+                format!(
+                    "before phase {name} reads t#; move it behind phase to read what was computed"
+                ),
+            );
+        }
         _ => {}
     }
 }
@@ -418,6 +442,7 @@ fn texdepth(listing: &Listing, line: &Line, report: &mut Report) {
         return;
     };
     let right = Register::new(RegisterFile::Temp, 5);
+    let mut code = Code::O14;
     let message = if destination.register.file == RegisterFile::Temp
         && destination.register != right
         && listing.exists(destination.register)
@@ -425,11 +450,17 @@ fn texdepth(listing: &Listing, line: &Line, report: &mut Report) {
         format!("texdepth takes r5, not {}", destination.register)
     } else if line.phase == Phase::First {
         "texdepth stands before phase".to_string()
+    } else if destination.register == right
+        && !listing.has_phase
+        && !listing.hides_write(right, destination.span)
+    {
+        code = Code::O14NoPhase;
+        "texdepth stands in a shader without phase".to_string()
     } else {
         return;
     };
     report.breach(
-        Code::O14,
+        code,
         destination.span,
         message,
         "write r5.rg before phase and texdepth r5 after it",
