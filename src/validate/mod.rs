@@ -6,6 +6,7 @@
 
 mod budgets;
 mod flow;
+mod instruction;
 mod listing;
 mod modifiers;
 mod operands;

@@ -1,7 +1,7 @@
 //! M1 to M13: modifiers, selectors and write masks of pixel shaders; O23, their absence from vertex shaders.
 
+use super::instruction::is_condition_of_cnd;
 use super::listing::{Line, Listing, Phase};
-use super::operands::is_condition_of_cnd;
 use super::report::Report;
 use crate::isa::enumerate;
 use crate::isa::opcode::{DestinationShape, ModifierRule};
