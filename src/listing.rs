@@ -4,7 +4,7 @@ use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, any_error};
 use crate::policy::Dialect;
 use crate::preprocess::{self, Preprocessed, preprocess};
 use crate::program::Program;
-use crate::rules::text as rules;
+use crate::rules::{model, text as rules};
 use crate::{syntax, validate};
 
 /// What became of a listing.
@@ -112,6 +112,11 @@ pub(crate) fn check_around(file: &SourceFile, options: &Options<'_>, lost: &[Spa
         },
     );
     let mut diagnostics = parsed.diagnostics.clone();
+    if let (None, Some(first)) = (&parsed.program, lost.first()) {
+        // The version may stand in what is missing.
+        let hidden = |d: &Diagnostic| d.rule.id == model::S1.id && first.start <= d.span.start;
+        diagnostics.retain(|d| !hidden(d));
+    }
     if !options.unchecked {
         diagnostics.extend(syntax::unread(file, &parsed));
         if let Some(program) = &parsed.program {
@@ -141,3 +146,40 @@ pub(crate) fn check_around(file: &SourceFile, options: &Options<'_>, lost: &[Spa
 
 /// Of how many lines it is said that they may be macros.
 const MOST_UNKNOWN: usize = 100;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    /// The identifiers of what is said of a listing that may include `open.h`, a comment without end.
+    fn said(text: &str) -> Vec<&'static str> {
+        let mut sources = SourceMap::new();
+        let file = sources.add("listing", text).unwrap().span();
+        let files = BTreeMap::from([("open.h".to_string(), b"/* open\n".to_vec())]);
+        let mut options = Options::default();
+        options.preprocess.resolver = &files;
+        let checked = read(&mut sources, file, &options);
+        checked.diagnostics.iter().map(|d| d.rule.id).collect()
+    }
+
+    /// What the preprocessor could not read may have held the version, and what writes r0.
+    #[test]
+    fn nothing_is_missed_that_may_stand_in_what_is_lost() {
+        for (text, id) in [
+            ("ps.1.1\n#define M(a,b) mov a, b\nM(r0, v0", "P31"),
+            ("#if (1\nps.1.1\n#endif\nmov r0, v0\n", "P27"),
+            ("#if FOO(\nps.1.1\n#endif\nmov r0, v0\n", "P27"),
+            ("ps.1.1\n#if (1\nmov r0, v0\n#endif\n", "P27"),
+            ("#ifdef\nps.1.1\n#endif\nmov r0, v0\n", "P26"),
+            ("#include \"open.h\"\nps.1.1\nmov r0, v0\n", "P6"),
+            ("ps.1.1\n#include \"open.h\"\nmov r0, v0\n", "P6"),
+            ("/* open\nps.1.1\nmov r0, v0\n", "P6"),
+        ] {
+            assert_eq!(said(text), [id], "{text}");
+        }
+        // Nothing was lost before these.
+        assert_eq!(said("mov r0, v0\n#if (1\n#endif\n"), ["S1", "P27"]);
+        assert_eq!(said("#if 1\n#endif\nmov r0, v0\n"), ["S1"]);
+    }
+}

@@ -187,14 +187,16 @@ impl ElementKind {
 }
 
 impl Declaration {
-    /// Whether a stream begins as a vertex declaration does: with a token of one that is no `D3DVSD_NOP`.
+    /// Whether a stream begins as a vertex declaration does: with a token of one that is no `D3DVSD_NOP`, nor its end unless
+    /// that is all.
     pub(super) fn begins(words: &[u32]) -> bool {
-        let first = words.iter().find(|word| **word != 0);
-        first.is_some_and(|word| {
-            macros::DECLARATION
-                .iter()
-                .any(|m| m.arguments(*word).is_some())
-        })
+        let mut rest = words.iter().skip_while(|word| **word == 0);
+        let known = |word: &u32| {
+            let mut all = macros::DECLARATION.iter();
+            all.any(|m| m.arguments(*word).is_some())
+        };
+        let first = rest.next().filter(|word| known(word));
+        first.is_some_and(|word| macros::END.arguments(*word).is_none() || rest.next().is_none())
     }
 
     /// Reads a declaration from its tokens, with everything that is wrong with them. The spans of both count tokens.

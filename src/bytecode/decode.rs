@@ -237,6 +237,11 @@ impl Decoder<'_> {
                 .warning(&rules::RESERVED, start, &message, help);
         }
         let co_issue = word & CO_ISSUE != 0;
+        if co_issue && self.kind == ShaderKind::Vertex {
+            let message =
+                format!("bit 30 of 0x{word:08X} makes a pair, which a vertex shader does not have");
+            self.reports.error(&rules::MODIFIER, start, &message, "");
+        }
         match opcode {
             Opcode::Def => self.definition(start, co_issue),
             Opcode::Dcl => self.declaration(start, co_issue),
@@ -308,7 +313,7 @@ impl Decoder<'_> {
             let word = self.operand(opcode, number, count)?;
             let at = self.at - 1;
             if number < destinations {
-                match self.read(fields::destination(word, self.kind)) {
+                match self.read(fields::destination(word, self.version)) {
                     Some((register, mask, result)) => {
                         instruction.result = result;
                         let span = tokens(at, at + 1);
@@ -321,7 +326,7 @@ impl Decoder<'_> {
                     None => whole = false,
                 }
             } else {
-                match self.read(fields::source(word, self.kind)) {
+                match self.read(fields::source(word, self.version)) {
                     Some(parts) => instruction.sources.push(source_at(parts, at)),
                     None => whole = false,
                 }
@@ -340,7 +345,7 @@ impl Decoder<'_> {
 
     fn definition(&mut self, start: usize, co_issue: bool) -> Result<(), Stop> {
         let word = self.operand(Opcode::Def, 0, 5)?;
-        let register = self.read(fields::declared(word, self.kind));
+        let register = self.read(fields::defined(word, self.version));
         let bits = self.words.get(self.at..self.at + 4);
         let Some(value) = bits.and_then(|bits| <[u32; 4]>::try_from(bits).ok()) else {
             let numbers = counted(self.words.len() - self.at, "number");
@@ -372,10 +377,13 @@ impl Decoder<'_> {
         let usage = self.operand(Opcode::Dcl, 0, 2)?;
         let usage = self.read(fields::usage(usage));
         let register = self.operand(Opcode::Dcl, 1, 2)?;
-        let register = self.read(fields::declared(register, self.kind));
+        let register = self.read(fields::declared(register, self.version));
         if co_issue {
-            let message = "`dcl` runs together with no other instruction, but bit 30 is set";
-            self.reports.error(&rules::MODIFIER, start, message, "");
+            // Of a vertex shader it has been said.
+            if self.kind == ShaderKind::Pixel {
+                let message = "`dcl` runs together with no other instruction, but bit 30 is set";
+                self.reports.error(&rules::MODIFIER, start, message, "");
+            }
         } else if let Some(((usage, usage_index), (register, mask))) = usage.zip(register) {
             self.statements.push(Statement::Dcl(Dcl {
                 usage,

@@ -2,7 +2,9 @@
 
 use super::{OPERAND, rules};
 use crate::diagnostic::Rule;
-use crate::isa::{RegisterFile, ResultModifier, ShaderKind, SourceModifier, Swizzle, WriteMask};
+use crate::isa::{
+    RegisterFile, ResultModifier, ShaderKind, SourceModifier, Swizzle, Version, WriteMask,
+};
 use crate::program::{Dcl, Destination, Register, Source, Usage};
 
 /// Bits 10:0: the number of the register.
@@ -68,6 +70,17 @@ fn register(token: u32, kind: ShaderKind) -> Result<Register, Fault> {
     Ok(Register::new(file, index))
 }
 
+/// Refuses a register that no listing of the version can name.
+fn named(register: Register, token: u32, version: Version) -> Result<(), Fault> {
+    let Register { file, index, .. } = register;
+    if file.can_be_named(index, version) {
+        return Ok(());
+    }
+    let name = file.register_name(index);
+    let message = format!("0x{token:08X} names `{name}`, which {version} does not have");
+    Err(fault(&rules::REGISTER, message, ""))
+}
+
 fn register_bits(register: Register, kind: ShaderKind) -> Result<u32, Fault> {
     let Register { file, index, .. } = register;
     let code = file.row().code;
@@ -98,8 +111,15 @@ fn kind_name(kind: ShaderKind) -> &'static str {
 /// The destination of a token, with the modifiers of the result.
 pub(super) fn destination(
     token: u32,
-    kind: ShaderKind,
+    version: Version,
 ) -> Result<(Register, WriteMask, ResultModifier), Fault> {
+    let (register, mask, result) = written(token, version.kind())?;
+    named(register, token, version)?;
+    Ok((register, mask, result))
+}
+
+/// As [`destination`], of whatever number the register is.
+fn written(token: u32, kind: ShaderKind) -> Result<(Register, WriteMask, ResultModifier), Fault> {
     let register = register(token, kind)?;
     if token & RELATIVE != 0 {
         let message = format!("bit 13 of 0x{token:08X} makes a destination relative to a0.x");
@@ -134,9 +154,24 @@ pub(super) fn destination(
     Ok((register, mask, result))
 }
 
-/// The destination of a `def` or a `dcl`, which takes no modifiers.
-pub(super) fn declared(token: u32, kind: ShaderKind) -> Result<(Register, WriteMask), Fault> {
-    let (register, mask, result) = destination(token, kind)?;
+/// The destination of a `dcl`, which takes no modifiers.
+pub(super) fn declared(token: u32, version: Version) -> Result<(Register, WriteMask), Fault> {
+    let (register, mask) = plain(token, version.kind())?;
+    named(register, token, version)?;
+    Ok((register, mask))
+}
+
+/// The destination of a `def`, which takes no modifiers. The assembler took any constant there.
+pub(super) fn defined(token: u32, version: Version) -> Result<(Register, WriteMask), Fault> {
+    let (register, mask) = plain(token, version.kind())?;
+    if register.file != RegisterFile::Const {
+        named(register, token, version)?;
+    }
+    Ok((register, mask))
+}
+
+fn plain(token: u32, kind: ShaderKind) -> Result<(Register, WriteMask), Fault> {
+    let (register, mask, result) = written(token, kind)?;
     if result != ResultModifier::NONE {
         let message = format!("0x{token:08X} modifies the result of a declaration");
         return Err(fault(&rules::MODIFIER, message, ""));
@@ -179,9 +214,11 @@ pub(super) fn no_result(result: ResultModifier, kind: ShaderKind) -> Fault {
 /// The source of a token.
 pub(super) fn source(
     token: u32,
-    kind: ShaderKind,
+    version: Version,
 ) -> Result<(Register, Swizzle, SourceModifier), Fault> {
+    let kind = version.kind();
     let mut register = register(token, kind)?;
+    named(register, token, version)?;
     register.relative = token & RELATIVE != 0;
     if register.relative && !may_be_relative(register, kind) {
         let name = register.file.register_name(register.index);

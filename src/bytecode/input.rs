@@ -2,7 +2,7 @@
 
 use super::literal::{self, Beginning, Words};
 use super::rules;
-use super::{Declaration, HEX_LINE, MOST_TOKENS, to_hex};
+use super::{Declaration, END, HEX_LINE, MOST_TOKENS, to_hex};
 use crate::diagnostic::{Diagnostic, SourceFile, SourceMap, Span, TooLarge, any_error};
 use crate::isa::Version;
 use crate::preprocess::scan::without_nul;
@@ -72,13 +72,17 @@ pub fn recognize(bytes: &[u8]) -> Option<Form> {
     }
 }
 
-/// Whether bytes are words and no text. Texts were cut out of programs with zeros behind them.
+/// Whether bytes are words and no text: they begin with a token that is a version or nearly, hold a zero, or end with the end
+/// token. Texts were cut out of programs with zeros behind them.
 fn is_binary(bytes: &[u8]) -> bool {
-    let version = bytes
-        .first_chunk()
-        .is_some_and(|b| is_version(u32::from_le_bytes(*b)));
+    let (words, extra) = bytes.as_chunks::<4>();
+    let word = |bytes: &[u8; 4]| u32::from_le_bytes(*bytes);
+    let version = words
+        .first()
+        .is_some_and(|first| matches!(word(first) >> 16, 0xFFFE | 0xFFFF));
+    let ended = extra.is_empty() && words.last().is_some_and(|last| word(last) == END);
     let text = without_nul(bytes);
-    version || text.contains(&0) || (text.is_empty() && !bytes.is_empty())
+    version || ended || text.contains(&0) || (text.is_empty() && !bytes.is_empty())
 }
 
 /// Whether a token is a version, of whatever shader model.
@@ -126,6 +130,13 @@ pub fn read(sources: &mut SourceMap, name: &str, bytes: &[u8]) -> Result<Option<
         }
     };
     Ok(Some(Input { form, streams }))
+}
+
+/// Says that a file holds no tokens, at `span`, where it begins.
+pub fn no_tokens(span: Span) -> Diagnostic {
+    let message = "this holds no tokens";
+    let help = "`dis` takes binary files, hexadecimal text and arrays in C sources (`asm` makes tokens of a listing)";
+    Diagnostic::error(&rules::TEXT, span, message).with_help(help)
 }
 
 fn binary(sources: &mut SourceMap, name: &str, bytes: &[u8]) -> Result<Stream, TooLarge> {

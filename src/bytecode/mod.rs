@@ -12,10 +12,11 @@
 //! * The first token is `0xFFFE0100`, `0xFFFE0101`, or `0xFFFF0100` to `0xFFFF0104`; the last is `0x0000FFFF`, and
 //!   nothing follows it.
 //! * An instruction token has bit 31 clear, an opcode in bits 15:0 and, where it is the second of a pair, bit 30.
-//!   Bits 29:16 are clear: the lengths and controls that they hold in later shader models do not exist yet. The opcode may
+//!   Bit 30 is never set in a vertex shader. Bits 29:16 are clear: the lengths and controls that they hold in later shader models do not exist yet. The opcode may
 //!   be one that the version does not have, which is a matter of [`crate::validate`].
 //! * As many operand tokens follow as the instruction has operands, each with bit 31 set: the register number in 10:0, a
-//!   register type of the kind of shader in 30:28, 0 in 12:11 and 15:14. A destination has a write mask that is not empty,
+//!   register type of the kind of shader in 30:28, 0 in 12:11 and 15:14. The assembler takes that register in this version:
+//!   see [`RegisterFile::can_be_named`](crate::isa::RegisterFile::can_be_named). A destination has a write mask that is not empty,
 //!   and in pixel shaders `_sat` and a shift of three bits at most. A source has a swizzle, one of the modifiers of the kind
 //!   of shader, and, on constants of vertex shaders, the bit that adds `a0.x`.
 //! * A `def` has a plain destination and four words, a `dcl` a usage token and a destination without modifiers.
@@ -63,7 +64,7 @@ pub use declaration::{DataType, Declaration, Element, ElementKind};
 pub use decode::{Decoded, decode};
 pub use disassemble::{Disassembly, disassemble};
 pub use encode::encode;
-pub use input::{Form, Input, Stream, StreamKind, read, recognize};
+pub use input::{Form, Input, Stream, StreamKind, no_tokens, read, recognize};
 pub use macros::Macro;
 pub(crate) use macros::register_named;
 

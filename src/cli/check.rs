@@ -1,7 +1,7 @@
 //! `check`: parse, validate, repair.
 
 use super::shaders::{Reading, not_one};
-use super::{Failure, Format, Outcome, diagnostics, files, print, print_json, stats};
+use super::{Failure, Files, Format, Outcome, diagnostics, files, print, print_json, stats};
 use serde_json::json;
 use std::path::Path;
 use texcrd::diagnostic::{Diagnostic, SourceMap, any_error};
@@ -39,19 +39,26 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let mut rejected = false;
+    let mut outcome = Files::default();
     for path in &arguments.files {
-        rejected |= !check(arguments, path)?;
+        let Some(bytes) = outcome.read(path) else {
+            continue;
+        };
+        match check(arguments, path, bytes) {
+            Ok(true) => {}
+            Ok(false) => outcome.refuse(),
+            Err(failure @ Failure::Input(_)) => {
+                failure.tell();
+                outcome.refuse();
+            }
+            Err(failure) => return Err(failure),
+        }
     }
-    if rejected {
-        return Err(Failure::Rejected);
-    }
-    Ok(())
+    outcome.outcome()
 }
 
 /// Whether all shaders of a file are accepted.
-fn check(arguments: &Arguments, path: &str) -> Result<bool, Failure> {
-    let mut bytes = files::read(path)?;
+fn check(arguments: &Arguments, path: &str, mut bytes: Vec<u8>) -> Result<bool, Failure> {
     if arguments.fix {
         bytes = fix(arguments, path, bytes)?;
     }

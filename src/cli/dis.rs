@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         Some(path) => Some(constants(arguments.format, &mut sources, path)?),
         None => None,
     };
-    let file = open(&mut sources, &arguments.file)?;
+    let file = open(arguments.format, &mut sources, &arguments.file)?;
     let mut rejected = false;
     let mut text = String::new();
     let opened = pick(file, &arguments.shader, &arguments.file)?;
@@ -101,7 +101,7 @@ fn version(stream: &Stream) -> &'static str {
 }
 
 /// The tokens of a file.
-fn open(sources: &mut SourceMap, path: &str) -> Result<File, Failure> {
+fn open(format: Format, sources: &mut SourceMap, path: &str) -> Result<File, Failure> {
     let name = files::name(path);
     let bytes = files::read(path)?;
     let mut file =
@@ -109,10 +109,9 @@ fn open(sources: &mut SourceMap, path: &str) -> Result<File, Failure> {
     file.shaders
         .retain(|shader| matches!(shader.text, Text::Tokens(_)));
     if file.shaders.is_empty() {
-        return Err(Failure::Input(format!(
-            "{name}: this holds no tokens; `dis` takes binary files, hexadecimal text and arrays in C sources \
-             (`asm` makes tokens of a listing)"
-        )));
+        let found = [bytecode::no_tokens(file.span.at_start())];
+        diagnostics::tell(format, sources, &found)?;
+        return Err(Failure::Rejected);
     }
     Ok(file)
 }

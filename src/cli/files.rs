@@ -2,7 +2,7 @@
 
 use super::Failure;
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use texcrd::diagnostic::SourceMap;
 
@@ -29,7 +29,7 @@ pub(super) fn name(path: &str) -> &str {
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |e: std::io::Error| Failure::Io(format!("{}: {e}", path.display()));
     if path == Path::new("-") {
-        return std::io::stdout().write_all(bytes).map_err(failed);
+        return super::print_bytes(bytes);
     }
     let place = target_of(path);
     let before = fs::metadata(&place).ok();

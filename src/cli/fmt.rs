@@ -1,6 +1,6 @@
 //! `fmt`: lays listings out.
 
-use super::{Failure, Outcome, files};
+use super::{Files, Outcome, files};
 use std::path::Path;
 use texcrd::extract::{self, Layout};
 
@@ -23,15 +23,21 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let mut rejected = false;
+    let mut outcome = Files::default();
     for path in &arguments.files {
-        let bytes = files::read(path)?;
+        let Some(bytes) = outcome.read(path) else {
+            continue;
+        };
         let name = files::name(path);
         let laid_out = match extract::format(&bytes) {
             Layout::Done(text) => text,
+            Layout::AsItIs(why) => {
+                anstream::eprintln!("{name}: {why}");
+                bytes.clone()
+            }
             Layout::Nothing(why) => {
                 anstream::eprintln!("error: {name}: {why}");
-                rejected = true;
+                outcome.refuse();
                 continue;
             }
         };
@@ -39,14 +45,11 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         if arguments.check {
             if changed {
                 super::print(&format!("{name}\n"))?;
-                rejected = true;
+                outcome.refuse();
             }
         } else if path == "-" || changed {
             files::write(Path::new(path), &laid_out)?;
         }
     }
-    match rejected {
-        true => Err(Failure::Rejected),
-        false => Ok(()),
-    }
+    outcome.outcome()
 }

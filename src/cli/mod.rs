@@ -108,6 +108,47 @@ impl Display for Failure {
     }
 }
 
+impl Failure {
+    /// Says why on standard error, unless that has been done.
+    fn tell(&self) {
+        let message = self.to_string();
+        if !message.is_empty() {
+            anstream::eprintln!("error: {message}");
+        }
+    }
+}
+
+/// What became of several files, of which each that cannot be read or is refused is told of while the others go on.
+#[derive(Default)]
+struct Files {
+    refused: bool,
+    unreadable: bool,
+}
+
+impl Files {
+    /// The content of a file; of one that cannot be read it is said why.
+    fn read(&mut self, path: &str) -> Option<Vec<u8>> {
+        let read = files::read(path);
+        self.unreadable |= read.is_err();
+        read.inspect_err(Failure::tell).ok()
+    }
+
+    /// Notes that a file was refused.
+    fn refuse(&mut self) {
+        self.refused = true;
+    }
+
+    /// How the command ends.
+    fn outcome(&self) -> Outcome {
+        match (self.unreadable, self.refused) {
+            // It has been said which.
+            (true, _) => Err(Failure::Io(String::new())),
+            (false, true) => Err(Failure::Rejected),
+            (false, false) => Ok(()),
+        }
+    }
+}
+
 type Outcome = Result<(), Failure>;
 
 /// Parses the arguments and runs the command.
@@ -141,10 +182,7 @@ pub(crate) fn main() -> ExitCode {
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;
     };
-    let message = failure.to_string();
-    if !message.is_empty() {
-        anstream::eprintln!("error: {message}");
-    }
+    failure.tell();
     match failure {
         Failure::Rejected | Failure::Input(_) => ExitCode::from(1),
         Failure::Io(_) => ExitCode::from(2),
@@ -156,10 +194,19 @@ fn dialect(text: &str) -> Result<Dialect, String> {
     text.parse().map_err(|e| format!("{e}"))
 }
 
-/// Writes a result to standard output. A reader that has gone away is no fault of ours.
+/// Writes a result to standard output.
 fn print(text: &str) -> Outcome {
-    use std::io::Write;
-    match anstream::stdout().write_all(text.as_bytes()) {
+    print_to(anstream::stdout(), text.as_bytes())
+}
+
+/// Writes a result that is no text to standard output.
+fn print_bytes(bytes: &[u8]) -> Outcome {
+    print_to(std::io::stdout(), bytes)
+}
+
+/// A reader that has gone away is no fault of ours.
+fn print_to(mut stream: impl std::io::Write, bytes: &[u8]) -> Outcome {
+    match stream.write_all(bytes).and_then(|()| stream.flush()) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(Failure::Io(format!("standard output: {e}")))
         }

@@ -285,7 +285,9 @@ fn recognized(bytes: &[u8]) -> (Option<bytecode::Form>, Vec<host::Found>) {
 pub enum Layout {
     /// The file with its listings laid out.
     Done(Vec<u8>),
-    /// There is nothing to lay out, and why.
+    /// Its listings stay as they are, and why.
+    AsItIs(&'static str),
+    /// It is nothing that has a layout, and why.
     Nothing(&'static str),
 }
 
@@ -306,7 +308,7 @@ pub fn format(bytes: &[u8]) -> Layout {
     }
     let blocks: Vec<Span> = found.iter().filter_map(host::Found::block).collect();
     if blocks.is_empty() {
-        return Layout::Nothing("its listings stand in strings, which are left as they are");
+        return Layout::AsItIs("its listings stand in strings, which are left as they are");
     }
     let mut text = Vec::with_capacity(bytes.len());
     let mut done = 0;

@@ -253,6 +253,17 @@ impl RegisterFile {
         self.row().count[version as usize].into()
     }
 
+    /// Whether the assembler of a version takes the register of this number, validated or not: one that the version has, any
+    /// constant of a vertex shader, of which devices have different numbers (D3DCAPS8.MaxVertexShaderConst), and `a0` of a
+    /// vertex shader, which only the validator misses in vs.1.0.
+    pub fn can_be_named(self, index: u32, version: Version) -> bool {
+        match (self, version.kind()) {
+            (Self::Const, ShaderKind::Vertex) => true,
+            (Self::Addr, ShaderKind::Vertex) => index < self.count(Version::Vs11),
+            _ => index < self.count(version),
+        }
+    }
+
     /// How many different registers of this file one instruction of the version may read.
     pub fn read_ports(self, version: Version) -> u32 {
         self.row().read_ports[version as usize].into()

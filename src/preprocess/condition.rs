@@ -60,6 +60,8 @@ impl Preprocessor<'_, '_> {
                 let at = tokens.get(token).map_or(at, |token| self.place(token));
                 let help = "write a comparison of whole numbers and macros, or defined(NAME)";
                 self.error(&rules::EXPRESSION, at, message, help);
+                // What belongs here depends on it.
+                self.lose();
                 false
             }
         }

@@ -144,6 +144,7 @@ impl Preprocessor<'_, '_> {
                     message,
                     "write the name of a macro behind it",
                 );
+                self.lose();
                 false
             }
         }

@@ -44,7 +44,7 @@ impl Folders<'_> {
         };
         // Listings were written on Windows.
         let path = path.replace('\\', "/");
-        let missing = || io::Error::from(io::ErrorKind::NotFound);
+        let missing = || io::Error::new(io::ErrorKind::NotFound, "there is no such file");
         let found = folders.iter().find_map(|folder| {
             let named = folder.join(&path);
             if let Some(bytes) = open(&named) {

@@ -78,7 +78,7 @@ pub struct Preprocessed {
     /// What is wrong, with spans where it was written.
     pub diagnostics: Vec<Diagnostic>,
     /// Empty places in the text where something is missing: a file that could not be included, a macro that could not be
-    /// expanded. Names may have been defined there.
+    /// expanded, what stands behind a condition that cannot be read. Names may have been defined there.
     pub lost: Vec<Span>,
 }
 

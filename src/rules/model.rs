@@ -4,7 +4,7 @@
 //! authorities say of the two runtimes. A rule that nothing can break alone has a row all the same: its note says why,
 //! and which rule speaks instead.
 
-use super::severity::{ADVICE, LATER, MEANT, REFUSED, SILENT, STRICT, Severities};
+use super::severity::{ADVICE, LATER, MEANT, REFUSED, SILENT, STRICT, STRICT_ADVICE, Severities};
 use super::{Case, Entry};
 use crate::diagnostic::{Rule, Severity};
 use crate::policy::Dialect;
@@ -118,10 +118,10 @@ model! {
     S1 REFUSED "A listing holds one shader, which begins with its version instruction; only comments and blank lines may stand before it."
         breaks "{mov} r0, v0 | ps.1.1 | mov r0, v0"
         keeps "ps.1.1 | mov r0, v0";
-    S2 LATER "def stands before the first arithmetic or texture instruction."
+    S2 LATER "def and dcl_ stand before the first arithmetic or texture instruction."
         breaks "ps.1.1 | tex t0 | {def c0, 0, 0, 0, 0} | def c1, 0, 0, 0, 0 | mul r0, t0, c0"
         keeps "ps.1.1 | def c0, 0, 0, 0, 0 | tex t0 | mul r0, t0, c0"
-        note "Direct3D 8 took a def anywhere; Direct3D 9 wants it in front of all instructions.";
+        note "Direct3D 8 took a def anywhere and declared inputs beside the shader; Direct3D 9 wants def and dcl_ in front of all instructions.";
     S3 MEANT "In ps.1.0 to ps.1.3 texture instructions stand before arithmetic instructions."
         breaks "ps.1.1 | mov r0, v0 | {tex} t0 | tex t1 | mov r0, t0"
         keeps "ps.1.1 | nop | tex t0 | tex t1 | mov r0, t0";
@@ -151,9 +151,11 @@ model! {
         keeps "vs.1.1 | mov oPos, v0 | mov oT0.y, v7 | mov oT0.x, v7 | mov oT1, v7"
         note "Direct3D 8 has no such rule; Direct3D 9 checks which components of each oT# are written and refuses gaps.";
     S11 STRICT "A vertex shader declares the inputs that it reads."
-        breaks "vs.1.1 | dcl_position v0 | mov oPos, v0 | mov oD0, {v5}"
+        breaks "vs.1.1 | mov oPos, {v0}"
         keeps "vs.1.1 | dcl_position v0 | dcl_color v5 | mov oPos, v0 | mov oD0, v5"
-        note "Direct3D 8 takes the inputs from an array of D3DVSD_ tokens beside the shader; Direct3D 9 has them declared by dcl_ in the shader.";
+        note "Direct3D 8 takes the inputs from an array of D3DVSD_ tokens beside the shader; Direct3D 9 has them declared by dcl_ in the shader."
+        case S11Partly LATER "where it declares others"
+            breaks "vs.1.1 | dcl_position v0 | mov oPos, v0 | mov oD0, {v5}";
     S12 REFUSED "A shader in tokens ends with the token 0x0000FFFF."
         breaks "FFFF0101 | 00000001 800F0000 90E40000"
         keeps "FFFF0101 | 00000001 800F0000 90E40000 | 0000FFFF"
@@ -161,7 +163,9 @@ model! {
     S13 REFUSED "The first token is the version: 0xFFFE0100, 0xFFFE0101, or 0xFFFF0100 to 0xFFFF0104."
         breaks "FFFE0102 | 0000FFFF"
         keeps "FFFE0101 | 00000001 C00F0000 90E40000 | 0000FFFF"
-        note "The versions of listings are those of P3.";
+        note "The versions of listings are those of P3. The documents of Direct3D 9 no longer offer vs.1.0 and ps.1.0; its conversion of Direct3D 8 shaders makes 1.1 of them."
+        case S13Oldest STRICT_ADVICE "vs.1.0 and ps.1.0"
+            breaks "{ps.1.0} | mov r0, v0";
     S14 REFUSED "An instruction exists in the version of the shader."
         breaks "ps.1.1 | tex t0 | {cmp} r0, t0, c0, c1"
         keeps "ps.1.2 | tex t0 | cmp r0, t0, c0, c1";
@@ -201,7 +205,7 @@ model! {
     O11 REFUSED "texld writes r# and reads t#, after phase also r#; texkill of ps.1.4 names t# or r#."
         breaks "ps.1.4 | texld {t0}, t0 | mov r0, c0"
         keeps "ps.1.4 | texcrd r0.rgb, t0 | phase | texld r1, r0 | mov r0, r1"
-        case O11Phase MEANT "texld of r# before phase"
+        case O11Phase MEANT "texld or texkill of r# before phase"
             breaks "ps.1.4 | texcrd r0.rgb, t0 | texld r1, {r0} | phase | mov r0, c0";
     O12 REFUSED "texcrd writes r#.rgb from t# (r#.rg from t#_dw.xyw)."
         breaks "ps.1.4 | texcrd {r1.r}, t0 | mov r0, c0"
@@ -215,7 +219,9 @@ model! {
         breaks "ps.1.4 | texcrd r0.rgb, t0 | phase | texdepth {r0} | mov r0, c0"
         keeps "ps.1.4 | texcrd r5.rgb, t0 | phase | texdepth r5 | mov r0, c0"
         case O14Register REFUSED "a register of another file"
-            breaks "ps.1.4 | phase | texdepth {t0} | mov r0, c0";
+            breaks "ps.1.4 | phase | texdepth {t0} | mov r0, c0"
+        case O14NoPhase ADVICE "in a shader without phase"
+            breaks "ps.1.4 | texcrd r5.rgb, t0 | texdepth {r5} | mov r0, c0";
     O15 MEANT "The first source of cnd is r0.a in ps.1.0 to ps.1.3."
         breaks "ps.1.1 | mov r1, v0 | cnd r0, {r1.a}, v0, v1"
         keeps "ps.1.1 | mov r0, v0 | cnd r0, r0.a, v0, v1";
@@ -250,7 +256,10 @@ model! {
         keeps "vs.1.1 | mov oPos, -v0";
     O24 REFUSED "A write mask names components in order and none twice, all of xyzw or all of rgba."
         breaks "vs.1.1 | mov oPos, v0 | mov r0.{yx}, v0"
-        keeps "vs.1.1 | mov oPos, v0 | mov r0.xy, v0";
+        keeps "vs.1.1 | mov oPos, v0 | mov r0.xy, v0"
+        note "oFog and oPts are one number each: listings of Direct3D 8 write them with .x or without a mask; Direct3D 9 takes them without a mask only."
+        case O24Number STRICT "a mask on oFog or oPts"
+            breaks "vs.1.1 | mov oPos, v0 | mov {oFog.x}, c0.x";
     O25 REFUSED "def names a constant register of the version, without a mask, and four numbers."
         breaks "ps.1.1 | def {c8}, 0, 0, 0, 0 | mov r0, v0"
         keeps "ps.1.1 | def c7, 0, 0, 0, 0 | mov r0, v0";
@@ -373,7 +382,10 @@ model! {
         keeps "ps.1.1 | tex t0 | tex t1 | texreg2ar t2, t1 | mov r0, t2";
     T13 MEANT "texld reads an r# whose xyz was written before phase."
         breaks "ps.1.4 | texcrd r0.rgb, t0 | phase | texld r1, {r2} | mov r0, r1"
-        keeps "ps.1.4 | texcrd r0.rgb, t0 | phase | texld r0, r0";
+        keeps "ps.1.4 | texcrd r0.rgb, t0 | phase | texld r0, r0"
+        note "Whether texkill is held to the same is not settled."
+        case T13Kill ADVICE "texkill"
+            breaks "ps.1.4 | phase | texld r1, t0 | texkill {r1} | mov r0, c0";
     I1 MEANT "A component of r# is written before it is read."
         breaks "ps.1.1 | add r0, {r0}, v0"
         keeps "ps.1.1 | mov r0.rgb, v0 | +mov r0.a, v0 | mul r0, r0, r0"

@@ -26,5 +26,7 @@ pub(super) const LATER: Severities = Severities([W, E, W]);
 pub(super) const ADVICE: Severities = Severities([W, W, W]);
 /// Only Direct3D 9 has the rule.
 pub(super) const STRICT: Severities = Severities([None, E, None]);
+/// Against the documents of Direct3D 9 alone; no runtime is known to refuse it.
+pub(super) const STRICT_ADVICE: Severities = Severities([None, W, None]);
 /// Another rule speaks, or nothing can break it.
 pub(super) const SILENT: Severities = Severities([None, None, None]);

@@ -129,9 +129,11 @@ fn hold(
     let example = Example::new(written);
     for dialect in Dialect::all() {
         let (found, base) = judge(id, &example.text, dialect);
-        // The inputs of these shaders are declared beside them, as they were for Direct3D 8, and what they load they
-        // need not use.
-        let aside = ["S11", "P23"].into_iter().filter(|other| *other != id);
+        // The inputs of these shaders are declared beside them, as they were for Direct3D 8, what they load they need
+        // not use, and some show what only vs.1.0 and ps.1.0 have.
+        let aside = ["S11", "S13", "P23"]
+            .into_iter()
+            .filter(|other| *other != id);
         let aside: Vec<&str> = aside.collect();
         let found = found.iter().filter(|d| !aside.contains(&d.rule.id));
         let got: Vec<_> = found

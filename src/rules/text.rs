@@ -21,8 +21,7 @@ super::named! {
         case MEANT "_sat on a source, which is passed over";
     INDEX "P16" REFUSED "The index in brackets is a sum of whole numbers and at most one a0.x.";
     NUMBER "P17" REFUSED "A number is written in decimal digits, with a point or an exponent where needed, and fits a 32-bit float; infinities and NaNs are written as their eight hexadecimal digits behind 0x.";
-    DECLARATION "P18" REFUSED "A declaration is dcl_ with a usage, an index from 0 to 15 where needed, and a register."
-        case ADVICE "behind the first instruction";
+    DECLARATION "P18" REFUSED "A declaration is dcl_ with a usage, an index from 0 to 15 where needed, and a register.";
     CO_ISSUE "P19" REFUSED "A + stands once in front of the second instruction of a pair.";
     STRAY "P20" REFUSED "Nothing but instructions and comments stands in a listing.";
     TOO_MANY "P21" REFUSED "Only the first errors of a text are shown.";

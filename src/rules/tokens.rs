@@ -8,9 +8,9 @@ super::named! {
     OPCODE "K4" REFUSED "The low half of an instruction token is the number of an instruction of Direct3D 8.";
     STRAY "K5" REFUSED "An instruction begins with a token whose bit 31 is clear.";
     OPERANDS "K6" REFUSED "As many operand tokens follow an instruction as it has operands, each with bit 31 set.";
-    REGISTER "K7" REFUSED "An operand names a register file that its kind of shader has, and a register that a listing can name.";
+    REGISTER "K7" REFUSED "An operand names a register file that its kind of shader has, and a register of it that a listing of the version can name.";
     MASK "K8" REFUSED "A destination writes at least one component.";
-    MODIFIER "K9" REFUSED "Modifiers are those of the kind of shader: a shift of -3 to 3 and a saturation on a destination of a pixel shader, the codes 0 to 10 on its sources, 0 and 1 on those of a vertex shader.";
+    MODIFIER "K9" REFUSED "Modifiers are those of the kind of shader: a shift of -3 to 3 and a saturation on a destination of a pixel shader, the codes 0 to 10 on its sources, 0 and 1 on those of a vertex shader; bit 30, which makes a pair, on instructions of a pixel shader.";
     RELATIVE "K10" REFUSED "Only a constant that a vertex shader reads is addressed relative to a0.x.";
     RESERVED "K11" ADVICE "Bits without meaning are clear.";
     COMMENT "K12" REFUSED "A comment is no longer than what is left of the stream.";

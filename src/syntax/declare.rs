@@ -342,12 +342,6 @@ impl Parser<'_> {
             let help = "remove the `+`";
             self.error(&rules::CO_ISSUE, head.span, message, help);
         }
-        if self.begun {
-            let message = "this declaration stands behind the first instruction";
-            let help = "move it in front of all instructions: Direct3D 9 takes it nowhere else";
-            let report = Diagnostic::warning(&rules::DECLARATION, head.span, message);
-            self.report(report.with_help(help));
-        }
         if !self.begins_operands() {
             return self.no_operands(head, 1);
         }

@@ -114,6 +114,12 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
     }
     let lexed = lexer::lex(text, base, &mut reports);
     let words = ascii(text);
+    // Whatever stands behind a comment without end is not read.
+    let hidden = reports.first(&rules::COMMENT_OPEN);
+    let hidden = hidden.map(|span| Damage {
+        span,
+        destination: None,
+    });
     let mut parser = Parser {
         text,
         words: &words,
@@ -125,10 +131,9 @@ pub fn parse_with(file: &SourceFile, options: Options) -> Parsed {
         names_missing: lexed.names_missing || options.names_missing,
         reports,
         statements: Vec::new(),
-        damaged: Vec::new(),
+        damaged: hidden.into_iter().collect(),
         lost: Vec::new(),
         strays: Vec::new(),
-        begun: false,
         lenient: options.lenient,
     };
     let mut comments = lexed.comments;

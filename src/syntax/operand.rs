@@ -502,6 +502,17 @@ impl<'a> Parser<'a> {
                 let message = format!("{} are no components", quoted());
                 match &readings[..] {
                     [] => (message, "components are letters of xyzw or of rgba"),
+                    // A lone q may as well be the last of stpq.
+                    [(_, meant)] if text.eq_ignore_ascii_case("q") => {
+                        operand.damaged = true;
+                        self.unsure(
+                            &rules::SELECTOR,
+                            span,
+                            message,
+                            &[meant.clone(), "a".to_string()],
+                        );
+                        return;
+                    }
                     [(components, meant)] => {
                         operand.components = Some(*components);
                         self.misread(&rules::SELECTOR, span, message, meant);

@@ -27,8 +27,6 @@ pub(super) struct Parser<'a> {
     /// Operands without mnemonic, to be matched with `strays`.
     pub(super) lost: Vec<Lost>,
     pub(super) strays: Vec<Stray>,
-    /// Whether an instruction other than `def` and `dcl` was read.
-    pub(super) begun: bool,
     /// What [`super::Options::lenient`] says.
     pub(super) lenient: bool,
 }

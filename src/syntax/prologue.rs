@@ -148,6 +148,10 @@ impl Parser<'_> {
     fn no_version(&mut self, start: Token) -> Option<Heading> {
         let span = self.span(start);
         if start.kind == Kind::End {
+            // The version may stand in the comment without end, of which was spoken.
+            if !self.damaged.is_empty() {
+                return None;
+            }
             let message = match self.text.iter().all(u8::is_ascii_whitespace) {
                 true => "the text is empty: the version instruction is missing",
                 false => "the text holds only comments: the version instruction is missing",

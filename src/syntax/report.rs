@@ -1,7 +1,7 @@
 //! Collecting diagnostics in bounded number.
 
 use super::rules;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Rule, Span};
 
 /// How many diagnostics a text gets before the rest is left out.
 pub(super) const MOST: usize = 100;
@@ -27,6 +27,12 @@ impl Reports {
     /// Whether no more are taken.
     pub(super) fn full(&self) -> bool {
         self.list.len() >= MOST
+    }
+
+    /// Where the first breach of a rule is.
+    pub(super) fn first(&self, rule: &'static Rule) -> Option<Span> {
+        let of = |d: &&Diagnostic| std::ptr::eq(d.rule, rule);
+        self.list.iter().find(of).map(|d| d.span)
     }
 
     /// Adds a sentence to the help of diagnostic `at`.

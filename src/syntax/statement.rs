@@ -321,7 +321,6 @@ impl Parser<'_> {
         if opcode == Opcode::Dcl {
             return self.declaration(head, suffixes.strip_prefix('_').unwrap_or(suffixes));
         }
-        self.begun |= opcode != Opcode::Def;
         self.result_suffixes(&mut head, suffixes);
         match opcode {
             Opcode::Def => self.definition(head),

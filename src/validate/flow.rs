@@ -25,6 +25,8 @@ struct Temporary {
     told: WriteMask,
     /// Whether it was said that texld cannot read it.
     told_of_texld: bool,
+    /// Whether it was said that texkill may not read it.
+    told_of_texkill: bool,
 }
 
 impl Temporary {
@@ -37,6 +39,7 @@ impl Temporary {
         sampled_after_phase: false,
         told: WriteMask::NONE,
         told_of_texld: false,
+        told_of_texkill: false,
     };
 
     fn write(&mut self, mask: WriteMask) {
@@ -102,7 +105,10 @@ fn reads(
         let Some(temporary) = temporaries.get_mut(read.register.index as usize) else {
             continue;
         };
-        if line.instruction.opcode == Opcode::TexLd {
+        let opcode = line.instruction.opcode;
+        // Of a texkill that reads what was never written I1 to I5 say more.
+        let holds = read.components.without(temporary.written).is_empty();
+        if opcode == Opcode::TexLd || opcode == Opcode::TexKill && holds {
             dependent_read(listing, line, read, temporary, report);
         } else {
             component_read(listing, read, temporary, report);
@@ -190,34 +196,44 @@ fn dependent_read(
     temporary: &mut Temporary,
     report: &mut Report,
 ) {
-    if line.phase == Phase::First || temporary.told_of_texld {
+    let (code, told) = match line.instruction.opcode {
+        Opcode::TexKill => (Code::T13Kill, temporary.told_of_texkill),
+        _ => (Code::T13, false),
+    };
+    if line.phase == Phase::First || temporary.told_of_texld || told {
         return; // O11 speaks of the first phase.
     }
+    let name = line.mnemonic();
     let register = read.register;
     let missing = WriteMask::XYZ.without(temporary.before_phase);
     let (message, help) = if temporary.sampled_after_phase {
         (
-            format!("texld reads {register}, which was sampled in the same phase"),
-            "only one level of dependent reads is possible: sample before phase what is read after it",
+            format!("{name} reads {register}, which was sampled in the same phase"),
+            format!(
+                "sample before phase what {name} reads after it: only one level of dependent reads is possible"
+            ),
         )
     } else if !listing.has_phase {
         (
-            format!("texld reads {register}, but the shader has no phase before it"),
-            "compute the coordinates before a phase instruction and put texld behind it",
+            format!("{name} reads {register}, but the shader has no phase before it"),
+            format!("compute {register} before a phase instruction and put {name} behind it"),
         )
     } else if !missing.is_empty() {
         (
             format!(
-                "texld reads {register}, but {} was not written before phase",
+                "{name} reads {register}, but {} was not written before phase",
                 listing.name(register, missing)
             ),
-            "coordinates of a dependent read have r, g and b, for a flat texture too",
+            "write r, g and b before phase, for a flat texture too".to_string(),
         )
     } else {
         return;
     };
-    temporary.told_of_texld = true;
-    report.breach(Code::T13, read.span, message, help);
+    match code {
+        Code::T13Kill => temporary.told_of_texkill = true,
+        _ => temporary.told_of_texld = true,
+    }
+    report.breach(code, read.span, message, help);
 }
 
 fn writes(line: &Line, temporaries: &mut [Temporary; TEMPORARIES]) {

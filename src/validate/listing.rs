@@ -1,8 +1,8 @@
 //! A program as the rules look at it: lines with their form, phase and place in a pair.
 
+use super::operands::is_one_number;
 use crate::diagnostic::Span;
 use crate::isa::opcode::ModifierRule;
-use crate::isa::register::{OFOG, OPTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, ShaderKind, SourceModifier, Version, VersionSet, WriteMask,
 };
@@ -27,10 +27,10 @@ pub(super) struct Line<'p> {
     pub(super) phase: Phase,
     /// Whether it is the second half of a pair with the line before it.
     pub(super) joined: bool,
-    /// Where its reads begin and end among those of the listing.
-    reads: (usize, usize),
     /// Whether it is half of a pair, the first or the second.
     pub(super) paired: bool,
+    /// Where its reads begin and end among those of the listing.
+    reads: (usize, usize),
 }
 
 /// A register that an instruction reads.
@@ -49,10 +49,10 @@ pub(super) struct Listing<'p> {
     pub(super) version: Version,
     pub(super) lines: Vec<Line<'p>>,
     pub(super) has_phase: bool,
-    /// What the lines read, one after the other.
-    reads: Vec<Read>,
     /// The `t#` that something in `ps.1.4` is written to, which cannot be.
     pub(super) written_coordinates: HashSet<Register>,
+    /// What the lines read, one after the other.
+    reads: Vec<Read>,
     unread: Unread,
 }
 
@@ -96,8 +96,8 @@ impl<'p> Listing<'p> {
                 form: instruction.opcode.form(version),
                 phase,
                 joined: false,
-                reads: (reads.len(), 0),
                 paired: false,
+                reads: (reads.len(), 0),
             };
             line.add_reads(&mut reads);
             line.reads.1 = reads.len();
@@ -167,11 +167,11 @@ impl<'p> Listing<'p> {
         }
     }
 
-    /// Whether a statement before a place, which could not be read, may have written a register.
+    /// Whether a statement before a place or at it, which could not be read, may have written a register.
     pub(super) fn hides_write(&self, register: Register, before: Span) -> bool {
         let at = |register| self.unread.first.get(&register);
         let mut starts = [at(None), at(Some(register))].into_iter().flatten();
-        starts.any(|start| *start < before.start)
+        starts.any(|start| *start <= before.start)
     }
 
     /// Whether a statement that could not be read may be a texture instruction.
@@ -311,9 +311,7 @@ impl Line<'_> {
 
 /// The components of a destination that have an effect: `oFog` and `oPts` are one number, x if no mask is written.
 fn used(destination: Destination) -> WriteMask {
-    let one_number = destination.register.file == RegisterFile::RastOut
-        && matches!(destination.register.index, OFOG | OPTS);
-    if one_number && destination.mask == WriteMask::ALL {
+    if is_one_number(destination.register) && destination.mask == WriteMask::ALL {
         WriteMask::X
     } else {
         destination.mask

@@ -31,10 +31,8 @@ pub use uses::{Use, UseKind, origins, uses};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::policy::Dialect;
 use crate::program::{Program, Register};
-use crate::rules::model;
 use listing::Listing;
 use report::Report;
-use std::collections::HashSet;
 
 /// Judges a program by the rules of a dialect. Returns every breach, by position, but of one rule no more than 100,
 /// so that a file that is no shader does not drown in them.
@@ -44,27 +42,15 @@ pub fn validate(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
     validate_around(program, dialect, &[])
 }
 
-/// Judges only what the assembler itself refused, whether it was asked to validate or not: registers that are written and
-/// that the version does not have (O1), and `+` in a vertex shader (C1). What else it never took is no text of a program.
+/// Judges only what the assembler itself refused, whether it was asked to validate or not: registers that are written out and
+/// that the version does not have (O1, of a `def` O25), and `+` in a vertex shader (C1). What else it never took is no text
+/// of a program. The rows of a matrix that are not written out are the validator's.
 pub fn assembles(program: &Program) -> Vec<Diagnostic> {
-    let missing = |r: Register| r.index >= r.file.count(program.version);
-    let mut operands: HashSet<Span> = HashSet::new();
-    for instruction in program.instructions() {
-        let destination = instruction.destination.iter();
-        let destination = destination.map(|d| (d.register, d.span));
-        let sources = instruction.sources.iter().map(|s| (s.register, s.span));
-        let all = destination.chain(sources);
-        operands.extend(all.filter(|(r, _)| missing(*r)).map(|(_, span)| span));
-    }
-    let declared = program.declarations().filter(|d| missing(d.register));
-    operands.extend(declared.map(|d| d.span));
-    let mut found = validate(program, Dialect::D3d8);
-    // The rows of a matrix that are not written are the validator's.
-    found.retain(|d| match d.rule.id {
-        id if id == model::O1.id => operands.contains(&d.span),
-        id => id == model::C1.id,
-    });
-    found
+    let listing = Listing::new(program, &[]);
+    let mut report = Report::new(Dialect::D3d8);
+    operands::can_be_named(&listing, &mut report);
+    pairing::vertex_shaders_have_no_pairs(&listing, &mut report);
+    report.finish()
 }
 
 /// Judges a program of which some statements could not be read.

@@ -125,13 +125,14 @@ fn write_mask(listing: &Listing, line: &Line, form: &Form, report: &mut Report) 
         (Opcode::Cnd, _) => Code::O16,
         _ => Code::M7,
     };
-    let message = format!(
-        "{} of {} does not write {}",
-        line.mnemonic(),
-        listing.version,
-        listing.mask(destination.mask)
-    );
+    let (name, version) = (line.mnemonic(), listing.version);
+    let mask = listing.mask(destination.mask);
+    let message = match shape.written {
+        true => format!("{name} of {version} does not write {mask}"),
+        false => format!("{name} writes nothing and takes no mask"),
+    };
     let help = match code {
+        Code::M13 if !shape.written => format!("write {}", destination.register),
         Code::M13 => "leave the mask out; all four components are written".to_string(),
         _ => format!(
             "write {}; ps.1.4 writes any components",

@@ -6,11 +6,11 @@ use super::report::Report;
 use crate::diagnostic::Span;
 use crate::isa::enumerate;
 use crate::isa::opcode::{ModifierRule, Slots};
-use crate::isa::register::{Access, VERTEX_CONSTANTS};
+use crate::isa::register::{Access, OFOG, OPTS, VERTEX_CONSTANTS};
 use crate::isa::{
     Class, Form, Opcode, RegisterFile, SourceModifier, Swizzle, Version, VersionSet, WriteMask,
 };
-use crate::program::{Destination, Register, Source};
+use crate::program::{Destination, Register, Source, Statement};
 use crate::rules::model::Code;
 
 /// How many constants software vertex processing has; there is no storage beyond.
@@ -62,6 +62,31 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
         instruction(listing, line, form, report);
     }
     address_is_written(listing, report);
+}
+
+/// O1 and, of `def`, O25 on what no assembler of the version takes, wherever it stands. It took a `def` of any constant.
+pub(super) fn can_be_named(listing: &Listing, report: &mut Report) {
+    let mut judge = |register: Register, span: Span, code: Code| {
+        let Register { file, index, .. } = register;
+        if !file.can_be_named(index, listing.version) {
+            register_exists(listing, register, span, code, report);
+        }
+    };
+    for statement in &listing.program.statements {
+        match statement {
+            Statement::Def(def) if def.register.file == RegisterFile::Const => {}
+            Statement::Def(def) => judge(def.register, def.register_span, Code::O25),
+            Statement::Dcl(dcl) => judge(dcl.register, dcl.span, Code::O1),
+            Statement::Instruction(instruction) => {
+                if let Some(destination) = &instruction.destination {
+                    judge(destination.register, destination.span, Code::O1);
+                }
+                for source in &instruction.sources {
+                    judge(source.register, source.span, Code::O1);
+                }
+            }
+        }
+    }
 }
 
 /// O1, O4, O26; `def` has O25. Returns whether it does exist.
@@ -160,6 +185,18 @@ fn check_destination(
         return;
     }
     if shape.files.contains(register.file) {
+        let early = listing.version == Version::Ps14 && line.phase == Phase::First;
+        if early && opcode == Opcode::TexKill {
+            first_phase_register(line, register, span, report);
+        }
+        if is_one_number(register) && destination.mask != WriteMask::ALL {
+            report.breach(
+                Code::O24Number,
+                span,
+                format!("{register} is one number and takes no mask"),
+                format!("write {register}"),
+            );
+        }
         return;
     }
     let code = match (form.class, register.file) {
@@ -190,6 +227,11 @@ fn check_destination(
         ),
     };
     report.breach(code, span, message, help);
+}
+
+/// Whether a register is `oFog` or `oPts`.
+pub(super) fn is_one_number(register: Register) -> bool {
+    register.file == RegisterFile::RastOut && matches!(register.index, OFOG | OPTS)
 }
 
 fn only_read(file: RegisterFile) -> &'static str {
@@ -257,7 +299,7 @@ fn check_source(
         return;
     }
     if listing.version == Version::Ps14 && line.phase == Phase::First {
-        first_phase_source(line, register, span, report);
+        first_phase_register(line, register, span, report);
     }
 }
 
@@ -320,7 +362,7 @@ fn wrong_source(
 }
 
 /// O9, O11: what is there only after `phase`.
-fn first_phase_source(line: &Line, register: Register, span: Span, report: &mut Report) {
+fn first_phase_register(line: &Line, register: Register, span: Span, report: &mut Report) {
     match register.file {
         RegisterFile::Input => report.breach(
             Code::O9,
@@ -328,12 +370,19 @@ fn first_phase_source(line: &Line, register: Register, span: Span, report: &mut 
             format!("{register} is read before phase"),
             "colours are read after phase; coordinates come in at any time, by texcrd from t#",
         ),
-        RegisterFile::Temp if line.instruction.opcode == Opcode::TexLd => report.breach(
-            Code::O11Phase,
-            span,
-            format!("texld reads {register} before phase"),
-            "before phase texld reads t#; move it behind phase to read what was computed",
-        ),
+        RegisterFile::Temp
+            if matches!(line.instruction.opcode, Opcode::TexLd | Opcode::TexKill) =>
+        {
+            let name = line.mnemonic();
+            report.breach(
+                Code::O11Phase,
+                span,
+                format!("{name} reads {register} before phase"),
+                format!(
+                    "before phase {name} reads t#; move it behind phase to read what was computed"
+                ),
+            );
+        }
         _ => {}
     }
 }
@@ -393,6 +442,7 @@ fn texdepth(listing: &Listing, line: &Line, report: &mut Report) {
         return;
     };
     let right = Register::new(RegisterFile::Temp, 5);
+    let mut code = Code::O14;
     let message = if destination.register.file == RegisterFile::Temp
         && destination.register != right
         && listing.exists(destination.register)
@@ -400,11 +450,17 @@ fn texdepth(listing: &Listing, line: &Line, report: &mut Report) {
         format!("texdepth takes r5, not {}", destination.register)
     } else if line.phase == Phase::First {
         "texdepth stands before phase".to_string()
+    } else if destination.register == right
+        && !listing.has_phase
+        && !listing.hides_write(right, destination.span)
+    {
+        code = Code::O14NoPhase;
+        "texdepth stands in a shader without phase".to_string()
     } else {
         return;
     };
     report.breach(
-        Code::O14,
+        code,
         destination.span,
         message,
         "write r5.rg before phase and texdepth r5 after it",

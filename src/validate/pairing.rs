@@ -4,13 +4,13 @@ use super::listing::{Line, Listing, Read};
 use super::ports;
 use super::report::Report;
 use crate::isa::opcode::Pairing;
-use crate::isa::{Version, WriteMask};
+use crate::isa::{Opcode, Version, WriteMask};
 use crate::program::Statement;
 use crate::rules::model::Code;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
+    vertex_shaders_have_no_pairs(listing, report);
     if !listing.is_pixel() {
-        vertex_shaders_have_no_pairs(listing, report);
         return;
     }
     definitions_stand_alone(listing, report);
@@ -35,15 +35,23 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
 }
 
 /// C1.
-fn vertex_shaders_have_no_pairs(listing: &Listing, report: &mut Report) {
-    for line in listing.lines.iter().filter(|l| l.instruction.co_issue) {
+pub(super) fn vertex_shaders_have_no_pairs(listing: &Listing, report: &mut Report) {
+    if listing.is_pixel() {
+        return;
+    }
+    for statement in &listing.program.statements {
+        let (opcode, span) = match statement {
+            Statement::Instruction(i) if i.co_issue => (i.opcode, i.mnemonic_span),
+            Statement::Def(def) if def.co_issue => (Opcode::Def, def.span),
+            _ => continue,
+        };
         report.breach(
             Code::C1,
-            line.instruction.mnemonic_span,
+            span,
             format!(
                 "{} has no pairs; + stands before {}",
                 listing.version,
-                line.mnemonic()
+                opcode.mnemonic()
             ),
             "leave the + out",
         );

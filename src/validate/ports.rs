@@ -11,12 +11,31 @@ use crate::rules::model::Code;
 /// How many registers of a file both halves of a pair may read together (Direct3D 8.1: instruction pairing).
 const PORTS_OF_A_PAIR: usize = 3;
 
+/// How many registers of a file an instruction reads.
+struct Limit {
+    code: Code,
+    file: RegisterFile,
+    ports: usize,
+}
+
+/// The files whose ports can run out.
+fn limits(listing: &Listing) -> Vec<Limit> {
+    let limit = |file: RegisterFile| {
+        Some(Limit {
+            code: code(file, listing.version)?,
+            file,
+            ports: file.read_ports(listing.version) as usize,
+        })
+    };
+    RegisterFile::all().filter_map(limit).collect()
+}
+
 pub(super) fn check(listing: &Listing, report: &mut Report) {
-    let bounded: Vec<Bounded> = bounded(listing).collect();
+    let limits = limits(listing);
     for group in listing.groups() {
         let mut halves_fit = true;
         for line in group {
-            halves_fit &= instruction_fits(listing, line, &bounded, report);
+            halves_fit &= instruction_fits(listing, line, &limits, report);
         }
         if let ([first, second], true) = (group, halves_fit && listing.is_pixel()) {
             pair_fits(listing, first, second, report);
@@ -39,8 +58,12 @@ fn distinct<'a>(
 }
 
 /// Whether a file is read more than `ports` times at all.
-fn may_exceed(reads: &[Read], file: RegisterFile, ports: usize) -> bool {
-    let mut of_file = reads.iter().filter(|r| r.register.file == file);
+fn may_exceed<'a>(
+    reads: impl IntoIterator<Item = &'a Read>,
+    file: RegisterFile,
+    ports: usize,
+) -> bool {
+    let mut of_file = reads.into_iter().filter(|r| r.register.file == file);
     of_file.nth(ports).is_some()
 }
 
@@ -50,16 +73,11 @@ fn names(registers: &[(Register, Span)]) -> String {
 }
 
 /// R1, R2, R4, R6, R7. Returns whether all files are within their ports.
-fn instruction_fits(
-    listing: &Listing,
-    line: &Line,
-    bounded: &[Bounded],
-    report: &mut Report,
-) -> bool {
+fn instruction_fits(listing: &Listing, line: &Line, limits: &[Limit], report: &mut Report) -> bool {
     let reads = listing.reads(line);
     let rows = line.form.map_or(1, |form| form.rows.max(1));
     let mut fits = true;
-    for &(file, ports, code) in bounded {
+    for &Limit { code, file, ports } in limits {
         if !may_exceed(reads, file, ports) {
             continue;
         }
@@ -87,17 +105,6 @@ fn instruction_fits(
     fits
 }
 
-/// A file whose ports can run out, with how many of its registers one instruction reads.
-type Bounded = (RegisterFile, usize, Code);
-
-fn bounded(listing: &Listing) -> impl Iterator<Item = Bounded> {
-    let version = listing.version;
-    RegisterFile::all().filter_map(move |file| {
-        let code = code(file, version)?;
-        Some((file, file.read_ports(version) as usize, code))
-    })
-}
-
 /// The registers of a file that a row of a line reads. Each row of a matrix is an instruction of its own, which reads
 /// the vector and its own row.
 fn read_by_row(line: &Line, reads: &[Read], row: u32, file: RegisterFile) -> Vec<(Register, Span)> {
@@ -109,11 +116,11 @@ fn read_by_row(line: &Line, reads: &[Read], row: u32, file: RegisterFile) -> Vec
 pub(super) fn full_of_instruction(listing: &Listing, line: &Line) -> Vec<(RegisterFile, usize)> {
     let reads = listing.reads(line);
     let rows = line.form.map_or(1, |form| form.rows.max(1));
-    let full = |(file, ports, _): &Bounded| {
-        (0..rows).any(|row| read_by_row(line, reads, row, *file).len() == *ports)
+    let full = |limit: &Limit| {
+        (0..rows).any(|row| read_by_row(line, reads, row, limit.file).len() == limit.ports)
     };
-    let files = bounded(listing).filter(full);
-    files.map(|(file, ports, _)| (file, ports)).collect()
+    let files = limits(listing).into_iter().filter(full);
+    files.map(|limit| (limit.file, limit.ports)).collect()
 }
 
 /// The files of which the halves of a pair read as many registers as they may together.
@@ -122,25 +129,30 @@ pub(super) fn full_of_pair(
     first: &Line,
     second: &Line,
 ) -> Vec<(RegisterFile, usize)> {
-    let files = read_by_pair(listing, first, second);
+    let files = read_by_pair(listing, first, second, PORTS_OF_A_PAIR - 1);
     let full = files.filter(|(_, found)| found.len() == PORTS_OF_A_PAIR);
     full.map(|(file, _)| (file, PORTS_OF_A_PAIR)).collect()
 }
 
 /// Whether the halves of a pair read no more registers than they may together.
 pub(super) fn pair_is_within(listing: &Listing, first: &Line, second: &Line) -> bool {
-    read_by_pair(listing, first, second).all(|(_, found)| found.len() <= PORTS_OF_A_PAIR)
+    let mut files = read_by_pair(listing, first, second, PORTS_OF_A_PAIR);
+    files.all(|(_, found)| found.len() <= PORTS_OF_A_PAIR)
 }
 
-/// The registers that a pair reads, by file. Files that have no more registers than ports are left out.
-fn read_by_pair(
-    listing: &Listing,
-    first: &Line,
-    second: &Line,
-) -> impl Iterator<Item = (RegisterFile, Vec<(Register, Span)>)> {
+/// The registers that a pair reads, of the files that it reads more than `least` times. Files that have no more
+/// registers than ports are left out.
+fn read_by_pair<'a>(
+    listing: &'a Listing,
+    first: &'a Line,
+    second: &'a Line,
+    least: usize,
+) -> impl Iterator<Item = (RegisterFile, Vec<(Register, Span)>)> + 'a {
     let reads = || listing.reads(first).iter().chain(listing.reads(second));
-    let version = listing.version;
-    let files = RegisterFile::all().filter(move |f| f.count(version) as usize > PORTS_OF_A_PAIR);
+    let many = move |file: &RegisterFile| {
+        file.count(listing.version) as usize > PORTS_OF_A_PAIR && may_exceed(reads(), *file, least)
+    };
+    let files = RegisterFile::all().filter(many);
     files.map(move |file| (file, distinct(reads(), file)))
 }
 
@@ -189,7 +201,7 @@ fn code(file: RegisterFile, version: Version) -> Option<Code> {
 
 /// R11.
 fn pair_fits(listing: &Listing, first: &Line, second: &Line, report: &mut Report) {
-    for (file, found) in read_by_pair(listing, first, second) {
+    for (file, found) in read_by_pair(listing, first, second, PORTS_OF_A_PAIR) {
         let Some((_, span)) = found.get(PORTS_OF_A_PAIR) else {
             continue;
         };

@@ -10,6 +10,7 @@ use std::collections::HashSet;
 
 pub(super) fn check(listing: &Listing, report: &mut Report) {
     instructions_exist(listing, report);
+    version_is_offered(listing, report);
     definitions_come_first(listing, report);
     textures_come_first(listing, report);
     if !listing.is_pixel() {
@@ -17,6 +18,22 @@ pub(super) fn check(listing: &Listing, report: &mut Report) {
         coordinates_have_no_gaps(listing, report);
         inputs_are_declared(listing, report);
     }
+}
+
+/// S13 on versions that can be read.
+fn version_is_offered(listing: &Listing, report: &mut Report) {
+    let version = listing.version;
+    let newer = match version {
+        Version::Vs10 => Version::Vs11,
+        Version::Ps10 => Version::Ps11,
+        _ => return,
+    };
+    report.breach(
+        Code::S13Oldest,
+        listing.program.version_span,
+        format!("the documents of Direct3D 9 do not offer {version}"),
+        format!("write {newer}, which has all that {version} has"),
+    );
 }
 
 /// S14, S5.
@@ -76,31 +93,30 @@ fn instead_of(opcode: Opcode, version: Version) -> Option<&'static str> {
     instead.form(version).map(|_| instead.mnemonic())
 }
 
-/// S2. Of definitions that stand together the first is named.
+/// S2. Of definitions and declarations that stand together the first is named.
 fn definitions_come_first(listing: &Listing, report: &mut Report) {
     let mut instruction = None;
     let mut told = false;
     for statement in &listing.program.statements {
-        match statement {
+        let (what, register, span) = match statement {
             Statement::Instruction(i) => {
                 instruction = instruction.or(Some(i.opcode.mnemonic()));
                 told = false;
+                continue;
             }
-            Statement::Def(def) => {
-                if let (Some(first), false) = (instruction, told) {
-                    report.breach(
-                        Code::S2,
-                        def.span,
-                        format!(
-                            "the definition of {} stands behind the first instruction, {first}",
-                            def.register
-                        ),
-                        "move it up, right behind the version",
-                    );
-                    told = true;
-                }
-            }
-            Statement::Dcl(_) => {}
+            Statement::Def(def) => ("definition", def.register, def.span),
+            // Of one in a pixel shader S14 speaks.
+            Statement::Dcl(_) if listing.is_pixel() => continue,
+            Statement::Dcl(dcl) => ("declaration", dcl.register, dcl.span),
+        };
+        if let (Some(first), false) = (instruction, told) {
+            report.breach(
+                Code::S2,
+                span,
+                format!("the {what} of {register} stands behind the first instruction, {first}"),
+                "move it up, right behind the version",
+            );
+            told = true;
         }
     }
 }
@@ -191,11 +207,16 @@ fn position_is_written(listing: &Listing, report: &mut Report) {
 
 /// S11. Each input is named once.
 fn inputs_are_declared(listing: &Listing, report: &mut Report) {
-    if !report.has(Code::S11) {
-        return;
-    }
     let declarations = listing.program.declarations();
     let mut known: HashSet<Register> = declarations.map(|d| d.register).collect();
+    // Without any, all may be declared beside the shader.
+    let code = match known.is_empty() {
+        true => Code::S11,
+        false => Code::S11Partly,
+    };
+    if !report.has(code) {
+        return;
+    }
     for read in listing.lines.iter().flat_map(|line| listing.reads(line)) {
         let register = read.register;
         let is_input = register.file == RegisterFile::Input && listing.exists(register);
@@ -205,7 +226,7 @@ fn inputs_are_declared(listing: &Listing, report: &mut Report) {
             && !listing.hides_write(register, listing.program.span.at_end())
         {
             report.breach(
-                Code::S11,
+                code,
                 read.span,
                 format!("{register} is read, but no dcl_ says what comes in there"),
                 format!(

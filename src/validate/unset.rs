@@ -24,12 +24,13 @@ pub fn unset_constants(program: &Program, set: impl IntoIterator<Item = u32>) ->
         .map(|r| r.index);
     let mut known: HashSet<u32> = defined.chain(set).collect();
     for line in &listing.lines {
-        let mut reads: Vec<&Read> = listing.reads(line).iter().collect();
-        reads.retain(|read| {
+        let mut is_new = |read: &&Read| {
             let register = read.register;
             let constant = register.file == RegisterFile::Const && !register.relative;
             constant && known.insert(register.index)
-        });
+        };
+        let reads = listing.reads(line).iter();
+        let reads: Vec<&Read> = reads.filter(|read| is_new(read)).collect();
         // The rows of a matrix are one operand.
         for operand in reads.chunk_by(|a, b| a.span == b.span) {
             let names: Vec<String> = operand.iter().map(|r| r.register.to_string()).collect();

@@ -273,3 +273,37 @@ fn programs_can_read_the_repair() {
         (Some(2), Some(9))
     );
 }
+
+#[test]
+fn a_file_that_cannot_be_read_does_not_stop_the_others() {
+    let folder = folder("check_missing");
+    let wrong = folder.join("wrong.psh");
+    std::fs::write(&wrong, "ps.1.1\nmov r0, r1\n").expect("a file");
+    let missing = folder.join("missing.psh");
+    let (wrong, missing) = (
+        wrong.to_str().expect("a readable path"),
+        missing.to_str().expect("a readable path"),
+    );
+    let ran = texcrd(&["check", missing, wrong]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("missing.psh"), "{}", ran.err);
+    assert!(ran.out.contains("error[I1]"), "{}", ran.out);
+    let ran = texcrd(&["fmt", "--check", missing, wrong]);
+    assert_eq!(ran.status, 2);
+}
+
+/// Where nothing can be written, whatever is written fails.
+#[cfg(target_os = "linux")]
+#[test]
+fn results_that_cannot_be_written_are_an_error() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full");
+    let ran = std::process::Command::new(env!("CARGO_BIN_EXE_texcrd"))
+        .args(["asm", "asm/stained_glass/stained_glass.psh"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(full.expect("it is there"))
+        .output()
+        .expect("it runs");
+    assert_eq!(ran.status.code(), Some(2));
+    let err = String::from_utf8_lossy(&ran.stderr);
+    assert!(err.contains("standard output"), "{err}");
+}

@@ -97,6 +97,48 @@ fn listings_are_no_tokens() {
     let ran = texcrd(&["dis", "asm/stained_glass/room.psh"]);
     assert_eq!((ran.status, ran.out.as_str()), (1, ""));
     assert!(ran.err.contains("this holds no tokens"), "{}", ran.err);
+    // Programs are told, too, as `check` and `asm` do.
+    for text in [&b""[..], b"ps.1.1\nmov r0, v0\n", b"int main() {}"] {
+        let ran = texcrd_with_input(&["dis", "-", "--format", "json"], text);
+        assert_eq!((ran.status, ran.err.as_str()), (1, ""));
+        let object: serde_json::Value = serde_json::from_str(&ran.out).expect("one object");
+        assert_eq!(
+            (&object["code"], &object["line"]),
+            (&"K15".into(), &1.into())
+        );
+    }
+}
+
+/// What `dis` says nothing of, `asm --unchecked` takes back; what it could not is told, by token.
+#[test]
+fn what_asm_refuses_is_told() {
+    for (tokens, part) in [
+        (
+            "FFFF0101 00000001 800F0005 90E40000 0000FFFF",
+            "error[K7]: token 2",
+        ),
+        (
+            "FFFF0104 00000001 800F0000 A0E4000F 0000FFFF",
+            "error[K7]: token 3",
+        ),
+        (
+            "FFFE0101 40000001 800F0000 90E40000 0000FFFF",
+            "error[K9]: token 1",
+        ),
+    ] {
+        let ran = texcrd_with_input(&["dis", "-"], tokens.as_bytes());
+        assert_eq!((ran.status, ran.out.as_str()), (1, ""));
+        assert!(ran.err.contains(part), "{part} in\n{}", ran.err);
+    }
+    for listing in [
+        "ps.1.1\ndef r2, 1, 1, 1, 1\n",
+        "ps.1.1\nmov c8, v0\n",
+        "vs.1.1\n+def c0, 1, 1, 1, 1\n",
+    ] {
+        let asm = ["asm", "-", "--hex", "--unchecked"];
+        let ran = texcrd_with_input(&asm, listing.as_bytes());
+        assert_eq!((ran.status, ran.out.as_str()), (1, ""), "{listing}");
+    }
 }
 
 /// As much as the program reads of 100 MB of zeros, alone and behind a version: refused at once.

@@ -133,15 +133,21 @@ fn commands_take_effects() {
         both.out
     );
     assert_eq!(with(&["asm", "-"]).status, 2);
-    let several = with(&["eval", "-"]);
-    assert_eq!(several.status, 2);
-    assert!(
-        several
-            .err
-            .contains("1 (T/P/VertexShader), 2 (T/P/PixelShader)"),
-        "{}",
-        several.err
+    // All shaders are run, and each takes what its version has: v0 both, v2 only the vertex shader. c4 is not set, so oD0 is 0.
+    let several = with(&["eval", "-", "--set", "v0=0.5", "--set", "v2=1"]);
+    assert_eq!(several.status, 0, "{}", several.err);
+    assert_eq!(
+        several.out,
+        "// T/P/VertexShader\noPos  = 0.5, 0.5, 0.5, 0.5\noD0   = 0, 0, 0, 0\n\n\
+         // T/P/PixelShader\nr0    = 0.5, 0.5, 0.5, 0.5\n\n"
     );
+    assert!(several.err.contains("I7"), "{}", several.err);
+    assert_eq!(with(&["eval", "-", "--set", "v16=1"]).status, 2);
+    // Of two shaders one of which is refused the other is run all the same.
+    let half = EFFECT.replace("mov r0, v0", "mov r0, r1");
+    let half = texcrd_with_input(&["eval", "-", "--format", "json"], half.as_bytes());
+    assert_eq!((half.status, half.out.lines().count()), (1, 1));
+    assert!(half.out.contains(r#""shader":"T/P/VertexShader""#));
     let one = with(&[
         "eval",
         "-",
@@ -164,6 +170,28 @@ fn commands_take_effects() {
         wgsl.out.contains("// 6: mov oD0, c[C] ; colour"),
         "{}",
         wgsl.out
+    );
+    // With a pass more: two modules, the first of both stages, each behind the names of its shaders.
+    let more = EFFECT.replace(
+        "} }",
+        "} pass Q { PixelShader = asm { ps.1.1 mov r0, v1 }; } }",
+    );
+    let wgsl = texcrd_with_input(&["translate", "-"], more.as_bytes());
+    assert_eq!(wgsl.status, 0, "{}", wgsl.err);
+    let headings = [
+        "// T/P/VertexShader, T/P/PixelShader\n",
+        "// T/Q/PixelShader\n",
+    ];
+    let places = headings.map(|heading| wgsl.out.find(heading));
+    assert!(
+        places[0] == Some(0) && places[1] > places[0],
+        "{}",
+        wgsl.out
+    );
+    assert_eq!(wgsl.out.matches("fn ps_main").count(), 2);
+    assert_eq!(
+        texcrd_with_input(&["translate", "-", "-o", "none.wgsl"], more.as_bytes()).status,
+        2
     );
     assert_eq!(with(&["check", "-", "--shader", "Q"]).status, 2);
 }
@@ -194,6 +222,8 @@ fn listings_and_effects_are_laid_out() {
         "ps.1.1\nmov r0, v0\n"
     );
     let string = texcrd_with_input(&["fmt", "-"], b"char *s = \"ps.1.1\\nmov r0,v0\";\n");
-    assert_eq!((string.status, string.out.as_str()), (1, ""));
+    // What has no layout of ours comes through a pipe as it is.
+    let same = "char *s = \"ps.1.1\\nmov r0,v0\";\n";
+    assert_eq!((string.status, string.out.as_str()), (0, same));
     assert!(string.err.contains("stand in strings"), "{}", string.err);
 }

@@ -237,6 +237,21 @@ fn validation_points_into_the_listing() {
     assert_eq!(made.program, checked.program);
 }
 
+/// Words without a zero among them but those of the end token, which could be taken for zeros behind a text.
+#[test]
+fn binary_files_without_a_version() {
+    for first in [0xFFFD_0101_u32, 0xFFFF_FFFF, 0xFFFE_7F7F, 0x7469_7865] {
+        let words = [first, 0xFFFF];
+        let bytes = to_bytes(&words);
+        assert_eq!(recognize(&bytes), Some(Form::Binary));
+        let told = told_of(&bytes);
+        let message = format!("token 0 (byte 0): 0x{first:08X} is no version");
+        assert_eq!(told, [("S13", format!("{first:08X}"), message)]);
+        assert_eq!(told, told_of(to_hex(&words).as_bytes()));
+    }
+    assert_eq!(recognize(b"\xFF\xFF\xFF\xFF"), Some(Form::Binary));
+}
+
 /// A megabyte of zeros, as a file and behind a version.
 #[test]
 fn files_of_zeros() {

@@ -6,7 +6,7 @@ use crate::isa::{RegisterFile, ResultModifier, ShaderKind, SourceModifier, Write
 use crate::program::{Comment, Register, Statement};
 
 /// The specification's list of instructions, line by line: each, in each of its versions, has its number, and behind it
-/// a token for each operand. Operands are r1, r2 … here, which every version can name: file 0, all components.
+/// a token for each operand. Operands are c1, c2 … here, which every version has: file 2, all components.
 #[test]
 fn every_instruction_of_every_version() {
     let mut seen = 0;
@@ -28,12 +28,12 @@ fn every_instruction_of_every_version() {
                 "dcl" => ("dcl_normal v3".to_string(), words("80000003 900F0003")),
                 _ => {
                     let count = destinations + sources;
-                    let names: Vec<_> = (1..=count).map(|i| format!("r{i}")).collect();
+                    let names: Vec<_> = (1..=count).map(|i| format!("c{i}")).collect();
                     let mask = |i| {
                         if i <= destinations {
-                            0x800F_0000
+                            0xA00F_0000
                         } else {
-                            0x80E4_0000
+                            0xA0E4_0000
                         }
                     };
                     let tokens = (1..=count).map(|i| mask(i) | i).collect();
@@ -47,8 +47,8 @@ fn every_instruction_of_every_version() {
             let mut printed = listing.clone();
             if name == "sub" && version.kind() == ShaderKind::Vertex {
                 // Written as an addition of what is negated: source modifier 1.
-                tokens[1..].copy_from_slice(&[2, 0x800F_0001, 0x80E4_0002, 0x81E4_0003, END]);
-                printed = format!("{version}\nadd r1, r2, -r3\n");
+                tokens[1..].copy_from_slice(&[2, 0xA00F_0001, 0xA0E4_0002, 0xA1E4_0003, END]);
+                printed = format!("{version}\nadd c1, c2, -c3\n");
             }
             assert_eq!(assembled(&listing), tokens, "{listing}");
             assert_eq!(listed(&tokens), printed);

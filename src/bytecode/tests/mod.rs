@@ -1,6 +1,7 @@
 //! Tests of tokens, by subject.
 
 mod broken;
+mod constructs;
 mod declarations;
 mod examples;
 mod inputs;

@@ -3,14 +3,14 @@
 mod several;
 
 use super::computing::Several;
-use super::given::{self, Loaded};
+use super::given::{self, Runnable};
 use super::shaders::Reading;
 use super::{Failure, Format, Outcome, diagnostics, print, print_json};
 use serde_json::{Map, Value, json};
 use texcrd::debug::Given;
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, Trace, bind_constants};
-use texcrd::isa::{ShaderKind, WriteMask};
+use texcrd::isa::{ShaderKind, Version, WriteMask};
 use texcrd::kernel::{self, Kernel, Slot};
 use texcrd::program::{Instruction, Program};
 use texcrd::validate;
@@ -26,11 +26,11 @@ Examples:
   texcrd eval shader.psh --set v0=0.5 --trace --model gf3,float    where the two part first
   echo 'ps.1.1 mul r0, v0, c0' | texcrd eval - --set v0=1 --set c0=0.5 --format json")]
 pub(super) struct Arguments {
-    /// A listing, or a file with shaders in it; `-` is standard input.
+    /// A listing, or a file with shaders in it, all of which are run; `-` is standard input.
     #[arg(value_name = "FILE")]
     file: String,
     /// Sets an input or a constant: v#, t# (texture coordinates) or c#. One number fills all four components; of
-    /// two or three the rest is 0, 0, 1 as for vertex data.
+    /// two or three the rest is 0, 0, 1 as for vertex data. Of several shaders those take it that have the register.
     #[arg(
         long = "set",
         value_name = "REG=X[,Y[,Z[,W]]]",
@@ -52,34 +52,57 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let models = arguments.computing.models();
     let first = models.first().copied().unwrap_or_default();
-    let Loaded {
-        sources,
-        program,
-        kernel,
-    } = given::load(
-        &arguments.file,
-        &arguments.reading,
-        &arguments.computing.lowering(first),
-    )?;
-    let given = given::given(&arguments.set, program.version)?;
-    let set = given.constants.iter().map(|(number, _)| *number);
-    let unset = validate::unset_constants(&program, set);
-    anstream::eprint!("{}", diagnostics::render(&sources, &unset));
-    let listing = Listing {
-        sources: &sources,
-        program: &program,
-    };
-    let mut runs = vec![Run::new(listing, kernel, &given)];
-    for model in models.into_iter().skip(1) {
-        let kernel = kernel::lower(&program, &arguments.computing.lowering(model))
-            .map_err(|e| Failure::Input(e.to_string()))?;
-        runs.push(Run::new(listing, kernel, &given));
+    let options = arguments.computing.lowering(first);
+    let all = given::load_all(&arguments.file, &arguments.reading, &options)?;
+    let versions: Vec<Version> = all.shaders.iter().map(|s| s.program.version).collect();
+    let given = given::given_each(&arguments.set, &versions)?;
+    let several = all.shaders.len() > 1 || all.refused;
+    for (shader, given) in all.shaders.into_iter().zip(&given) {
+        let Runnable {
+            name,
+            program,
+            kernel,
+        } = shader;
+        let set = given.constants.iter().map(|(number, _)| *number);
+        let unset = validate::unset_constants(&program, set);
+        anstream::eprint!("{}", diagnostics::render(&all.sources, &unset));
+        let listing = Listing {
+            sources: &all.sources,
+            program: &program,
+        };
+        let mut runs = vec![Run::new(listing, kernel, given)];
+        for model in models.iter().skip(1) {
+            let kernel = kernel::lower(&program, &arguments.computing.lowering(*model))
+                .map_err(|e| Failure::Input(e.to_string()))?;
+            runs.push(Run::new(listing, kernel, given));
+        }
+        tell(arguments, &runs, several.then_some(&name))?;
     }
-    match (arguments.format, runs.as_slice()) {
-        (Format::Json, [run]) => print_json(&run.json(arguments.trace)),
-        (Format::Text, [run]) => print(&run.text(arguments.trace)),
-        (Format::Json, runs) => print_json(&several::json(runs, arguments.trace)),
-        (Format::Text, runs) => print(&several::text(runs, arguments.trace)),
+    match all.refused {
+        true => Err(Failure::Rejected),
+        false => Ok(()),
+    }
+}
+
+/// Prints the runs of a shader, one a model; `name`: what it is called, if it is one of several.
+fn tell(arguments: &Arguments, runs: &[Run<'_>], name: Option<&String>) -> Outcome {
+    if arguments.format == Format::Json {
+        let mut object = match runs {
+            [run] => run.json(arguments.trace),
+            runs => several::json(runs, arguments.trace),
+        };
+        if let Some(name) = name {
+            object["shader"] = json!(name);
+        }
+        return print_json(&object);
+    }
+    let text = match runs {
+        [run] => run.text(arguments.trace),
+        runs => several::text(runs, arguments.trace),
+    };
+    match name {
+        Some(name) => print(&format!("// {name}\n{text}\n")),
+        None => print(&text),
     }
 }
 

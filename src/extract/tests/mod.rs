@@ -123,7 +123,7 @@ fn an_effect_is_preprocessed_as_a_whole() {
     // Without the macro there is one error, at its name: line 11, behind `    mov oD0, c[`.
     let found = told(EFFECT);
     assert!(found.contains(&("P16", 11, 15)), "{found:?}");
-    // If a file is missing, which may define it, there is none.
+    // If a file is missing, which may define it, there is only a warning.
     let found = told(&format!("#include \"consts.h\"\n{EFFECT}"));
     assert_eq!(
         found,

@@ -162,14 +162,17 @@ fn a_saturated_source_is_read_without_its_suffix() {
     assert!(!crate::diagnostic::any_error(&lenient.diagnostics));
 }
 
+/// A lone `q` is the fourth component of other languages (stpq) as likely as a `g`; within a word it is a `g`.
 #[test]
-fn a_declaration_behind_an_instruction_is_warned_of() {
-    let (_, parsed) = read("vs_1_1\ndcl_position v0\nmov oPos, v0\ndcl_color v1\n");
+fn a_lone_q_has_no_certain_repair() {
+    let (_, parsed) = read("ps.1.4\nmov r0, v0.q\n");
     let [d] = &parsed.diagnostics[..] else {
         panic!("{:?}", parsed.diagnostics);
     };
-    assert_eq!(d.rule.id, "P18");
-    assert!(!crate::diagnostic::any_error(&parsed.diagnostics));
+    assert_eq!(d.rule.id, "P14");
+    assert!(d.fix.as_ref().is_some_and(|fix| !fix.certain));
+    assert_eq!(d.help.as_deref(), Some("did you mean `g` or `a`?"));
+    becomes("ps.1.4", "mov r0.rqb, v0", "mov r0.rgb, v0");
 }
 
 #[test]

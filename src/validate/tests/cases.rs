@@ -27,6 +27,8 @@ O5: vs.1.1 | mov oPos, v0 | mov {a0}, v0
 O5: vs.1.1 | mov oPos, v0 | mov r0, {c[a0.x + 2]} | mov r0, c[a0.x + 2]
 O9 ok: ps.1.4 | mul r0, c0, v0
 O10: ps.1.1 | tex {r0} | mov r0, v0
+O11: ps.1.4 | texcrd r1.rgb, t0 | texkill {r1} | phase | mov r0, v0
+O11 ok: ps.1.4 | texcrd r1.rgb, t0 | texkill t1 | phase | texkill r1 | mov r0, v0
 O12: ps.1.4 | texcrd {r1.rgb}, t0_dw.xyw | mov r0, c0
 O12: ps.1.4 | texcrd r1.rgb, {r2} | mov r0, c0
 O13: ps.1.1 | tex t0 | texbem t1, {c0} | mov r0, t1
@@ -59,6 +61,9 @@ T9 ok: ps.1.1 | tex t0 | texbem t1, t0 | mov t0, v0 | add r0, t1, t0
 T13: ps.1.4 | texcrd r0.rg, t0_dw.xyw | phase | texld r1, {r0} | mov r0, r1
 T13: ps.1.4 | texld r0, t0 | phase | texld r1, t1 | texld r2, {r1} | mov r0, r2
 T13: ps.1.4 | texcrd r0.rgb, t0 | texld r1, {r0} | mov r0, r1
+T13: ps.1.4 | texcrd r1.rgb, t0 | texkill {r1} | mov r0, v0
+T13: ps.1.4 | texcrd r1.rgb, t0 | phase | texld r1, t0 | texkill {r1} | texkill r1 | mov r0, v0
+I1: ps.1.4 | phase | texkill {r1} | mov r0, v0
 I1: vs.1.1 | m3x3 r0.xyz, v0, c0 | mov oPos, {r0} | mov oT0, r0
 I1: ps.1.1 | mov r0.rgb, v0 | +mov r0.a, {r0.a}
 I1 ok: vs.1.1 | m3x3 r0.xyz, v0, c0 | mov oPos, v0 | mov oT0.xyz, r0 | dp3 oT1.x, r0, r0

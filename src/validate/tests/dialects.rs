@@ -9,6 +9,15 @@ use crate::policy::Dialect;
 const SEVERITIES: &str = "
 B3  E E W  ps.1.1 | mul r0, v0, v0 *9
 S2  W E W  ps.1.1 | tex t0 | def c0, 0, 0, 0, 0 | mul r0, t0, c0
+S2  W E W  vs.1.1 | dcl_position v0 | mov oPos, v0 | dcl_color v1
+S13 - W -  ps.1.0 | mov r0, v0
+S13 - W -  vs.1.0 | mov oPos, v0
+O24 - E -  vs.1.1 | mov oPos, v0 | mov oFog.x, v0.x
+O24 - E -  vs.1.1 | mov oPos, v0 | mov oPts.x, v0.x
+O24 - - -  vs.1.1 | mov oPos, v0 | mov oFog, v0.x
+O11 E E W  ps.1.4 | texcrd r1.rgb, t0 | texkill r1 | phase | mov r0, v0
+T13 W W W  ps.1.4 | phase | texld r1, t0 | texkill r1 | mov r0, v0
+O14 W W W  ps.1.4 | texcrd r5.rgb, t0 | texdepth r5 | mov r0, c0
 S6  E E W  ps.1.1 | mov r1, v0
 S7  W W W  ps.1.4 | phase | mov r0.rgb, c0
 S9  W E W  vs.1.1 | mov oPos.xyz, v0
@@ -134,6 +143,10 @@ const WORDS: &[(&str, &[&str])] = &[
         &["mov of ps.1.1", ".rg", ".rgb, .a or .rgba"],
     ),
     ("vs.1.1 | mov oPos, v0 | rsq r0.x, v0", &["v0.w"]),
+    (
+        "ps.1.4 | texkill t0.xyz | mov r0, c0",
+        &["texkill writes nothing", "write t0"],
+    ),
     ("ps.1.1 | mul_d4 r0, v0, v0", &["no _d4", "ps.1.4"]),
     (
         "ps.1.1 | tex t0 | texm3x3pad t1, t0 | tex t2 | mov r0, t2",

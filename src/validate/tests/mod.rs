@@ -3,6 +3,7 @@
 mod cases;
 mod dialects;
 mod listings;
+mod natural;
 mod room;
 
 use crate::diagnostic::{Diagnostic, SourceMap};
