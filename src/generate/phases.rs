@@ -57,11 +57,7 @@ impl Maker<'_> {
         let count = RegisterFile::Temp.count(self.version);
         let stage = self.random.below(count);
         let flat = self.stages.get(stage as usize)?.kind == TextureKind::Texture2D;
-        let computed = if self.registers.first_phase {
-            Vec::new()
-        } else {
-            self.registers.dependent()
-        };
+        let computed = self.computed_before();
         let dependent = !computed.is_empty() && self.random.chance(60);
         let source = if dependent {
             let register = self.random.pick(&computed)?;
@@ -130,15 +126,21 @@ impl Maker<'_> {
         Some(instruction(Opcode::TexCrd, Some(to), vec![source]))
     }
 
-    /// `texkill` of coordinates or of what has a value.
+    /// The `r#` that texture instructions may read: after `phase` those that were computed before it (T13).
+    fn computed_before(&self) -> Vec<u32> {
+        match self.registers.first_phase {
+            true => Vec::new(),
+            false => self.registers.dependent(),
+        }
+    }
+
+    /// `texkill` of coordinates or of what was computed before `phase`.
     fn kill(&mut self) -> Option<Instruction> {
         let mut registers: Vec<Register> = (0..RegisterFile::Texture.count(self.version))
             .map(|i| Register::new(RegisterFile::Texture, i))
             .collect();
-        let written = (0..RegisterFile::Temp.count(self.version))
-            .filter(|i| self.registers.temporary(*i).contains(WriteMask::XYZ))
-            .map(|i| Register::new(RegisterFile::Temp, i));
-        registers.extend(written);
+        let computed = self.computed_before().into_iter();
+        registers.extend(computed.map(|i| Register::new(RegisterFile::Temp, i)));
         let register = self.random.pick(&registers)?;
         let looked_at = destination(register, WriteMask::ALL);
         Some(instruction(Opcode::TexKill, Some(looked_at), Vec::new()))

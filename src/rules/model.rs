@@ -205,8 +205,10 @@ model! {
     O11 REFUSED "texld writes r# and reads t#, after phase also r#; texkill of ps.1.4 names t# or r#."
         breaks "ps.1.4 | texld {t0}, t0 | mov r0, c0"
         keeps "ps.1.4 | texcrd r0.rgb, t0 | phase | texld r1, r0 | mov r0, r1"
-        case O11Phase MEANT "texld or texkill of r# before phase"
-            breaks "ps.1.4 | texcrd r0.rgb, t0 | texld r1, {r0} | phase | mov r0, c0";
+        case O11Phase MEANT "texld of r# before phase"
+            breaks "ps.1.4 | texcrd r0.rgb, t0 | texld r1, {r0} | phase | mov r0, c0"
+        case O11Kill ADVICE "texkill of r# before phase, of which it is not known whether it was refused"
+            breaks "ps.1.4 | texcrd r0.rgb, t0 | texkill {r0} | phase | mov r0, c0";
     O12 REFUSED "texcrd writes r#.rgb from t# (r#.rg from t#_dw.xyw)."
         breaks "ps.1.4 | texcrd {r1.r}, t0 | mov r0, c0"
         keeps "ps.1.4 | texcrd r1.rgb, t0 | texcrd r2.rg, t1_dw.xyw | mov r0, c0"

@@ -372,8 +372,12 @@ fn first_phase_register(line: &Line, register: Register, span: Span, report: &mu
             if matches!(line.instruction.opcode, Opcode::TexLd | Opcode::TexKill) =>
         {
             let name = line.mnemonic();
+            let code = match line.instruction.opcode {
+                Opcode::TexKill => Code::O11Kill,
+                _ => Code::O11Phase,
+            };
             report.breach(
-                Code::O11Phase,
+                code,
                 span,
                 format!("{name} reads {register} before phase"),
                 format!(

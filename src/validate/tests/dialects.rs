@@ -15,7 +15,7 @@ S13 - W -  vs.1.0 | mov oPos, v0
 O24 - E -  vs.1.1 | mov oPos, v0 | mov oFog.x, v0.x
 O24 - E -  vs.1.1 | mov oPos, v0 | mov oPts.x, v0.x
 O24 - - -  vs.1.1 | mov oPos, v0 | mov oFog, v0.x
-O11 E E W  ps.1.4 | texcrd r1.rgb, t0 | texkill r1 | phase | mov r0, v0
+O11 W W W  ps.1.4 | texcrd r1.rgb, t0 | texkill r1 | phase | mov r0, v0
 T13 W W W  ps.1.4 | phase | texld r1, t0 | texkill r1 | mov r0, v0
 O14 W W W  ps.1.4 | texcrd r5.rgb, t0 | texdepth r5 | mov r0, c0
 S6  E E W  ps.1.1 | mov r1, v0
