@@ -30,7 +30,8 @@ impl Maker<'_> {
     fn phase_instruction(&mut self) -> Option<Instruction> {
         let weight =
             |maker: &Self, opcode: Opcode, times: u32| (opcode, times * maker.weights().of(opcode));
-        let depth = !self.registers.first_phase
+        let depth = self.registers.has_phase
+            && !self.registers.first_phase
             && self
                 .registers
                 .temporary(DEPTH.index)

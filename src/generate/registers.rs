@@ -37,6 +37,8 @@ pub(super) struct Registers {
     pub(super) coordinates: [WriteMask; SETS],
     /// `ps.1.4`: whether the first phase is being written.
     pub(super) first_phase: bool,
+    /// Whether the shader has `phase`.
+    pub(super) has_phase: bool,
 }
 
 impl Registers {
@@ -55,6 +57,7 @@ impl Registers {
             position: WriteMask::NONE,
             coordinates: [WriteMask::NONE; SETS],
             first_phase,
+            has_phase: first_phase,
         }
     }
 
