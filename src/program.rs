@@ -1,7 +1,7 @@
 //! The typed form of a shader that text and tokens share.
 //!
 //! A [`Program`] says what was written, not whether it is allowed: operands may name registers that the version
-//! does not have. [`crate::validate`] judges it; [`crate::kernel`] lowers what was accepted.
+//! does not have. [`validate`](mod@crate::validate) judges it; [`crate::kernel`] lowers what was accepted.
 
 use crate::diagnostic::{SourceMap, Span};
 use crate::isa::operand::{RGBA, XYZW};

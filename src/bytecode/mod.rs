@@ -13,7 +13,7 @@
 //!   nothing follows it.
 //! * An instruction token has bit 31 clear, an opcode in bits 15:0 and, where it is the second of a pair, bit 30.
 //!   Bit 30 is never set in a vertex shader. Bits 29:16 are clear: the lengths and controls that they hold in later shader models do not exist yet. The opcode may
-//!   be one that the version does not have, which is a matter of [`crate::validate`].
+//!   be one that the version does not have, which is a matter of [`validate`](mod@crate::validate).
 //! * As many operand tokens follow as the instruction has operands, each with bit 31 set: the register number in 10:0, a
 //!   register type of the kind of shader in 30:28, 0 in 12:11 and 15:14. The assembler takes that register in this version:
 //!   see [`RegisterFile::can_be_named`](crate::isa::RegisterFile::can_be_named). A destination has a write mask that is not empty,

@@ -1,7 +1,7 @@
 //! Random valid shaders, for comparing executors, for round trips and for fuzzing.
 //!
 //! [`shader`] writes a shader of one version from a seed. It is valid because of how it is written: every choice is made
-//! among what the rows of [`crate::isa`] and the rules of Direct3D 8 allow at that place. [`crate::validate`] has
+//! among what the rows of [`crate::isa`] and the rules of Direct3D 8 allow at that place. [`validate`](mod@crate::validate) has
 //! nothing to say of it, not even a warning.
 //!
 //! # Comparable shaders

@@ -34,7 +34,7 @@ pub enum Projection {
 
 /// Lowers a program.
 ///
-/// A program that [`validate`](crate::validate) accepts can always be lowered. One that it refuses can as long as
+/// A program that [`validate`](mod@crate::validate) accepts can always be lowered. One that it refuses can as long as
 /// it has a meaning; order, budgets, read ports and initialisation do not matter here. A temporary that is read
 /// before it is written reads 0, a `t#` that no texture instruction wrote reads its interpolated coordinates.
 ///
