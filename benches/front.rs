@@ -18,32 +18,7 @@ use texcrd::program::Program;
 use texcrd::{bytecode, extract, preprocess, syntax, validate};
 
 /// Two phases: a normal map, and a map of specular powers read through what the first phase computed.
-const PIXEL: &str = "\
-ps.1.4
-; Bump mapping with a gloss map.
-; c1 ambient, c2 specular, c3 fade, v0 diffuse
-def c0, 0.25, 0.5, 0.75, 1
-texld  r1, t1                ; normal map
-texcrd r2.rgb, t2            ; L, 0 to 1
-dp3_sat r3.rgb, r1_bx2, r2_bx2 ; N.L
-mul r4.rgb, r3, r1_bx2
-mad r4.rgb, r4_x2, c0.a, -r2_bx2 ; L mirrored at N
-mul r4.rg, r4, c0.g
-add r4.rg, r4, c0.g
-mov r4.b, c0.b
-phase
-texld  r0, t0                ; base
-texld  r4, r4                ; specular light
-mul r5.rgb, r0, c1           ; ambient
-mad r5.rgb, r0, r3, r5       ; diffuse
-mul r4.rgb, r4, c2
-+mul r4.a, r0.a, c2.a
-mad r5.rgb, r4, r4.a, r5
-mul r2.rgb, v0, r5
-cmp r2.rgb, r3_bias, r2, r5
-lrp r0.rgb, c3, r2, r5
-+mov_sat r0.a, r0
-";
+const PIXEL: &str = include_str!("bumped.psh");
 
 /// A matrix out of a palette of bones, a light, fog.
 const VERTEX: &str = "\

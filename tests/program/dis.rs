@@ -157,5 +157,6 @@ fn zeros() {
     let ran = texcrd_with_input(&["dis", "-"], &[&[1, 1, 0xFF, 0xFF][..], &zeros].concat());
     assert_eq!(ran.status, 1);
     assert!(ran.err.contains("error[K13]"), "{}", ran.err);
-    assert!(started.elapsed().as_secs() < 20);
+    // A guard against reading that is not linear, not a measurement.
+    assert!(started.elapsed().as_secs() < 60);
 }

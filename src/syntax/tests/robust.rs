@@ -168,7 +168,7 @@ const PIECES: [&str; 51] = [
 ];
 
 /// Each on its own, so that a quadratic step, which would take minutes here, is found. Linear reading takes some
-/// tenths of a second, unoptimised.
+/// tenths of a second, unoptimised; the limit is far above that, because a busy machine is no fault.
 #[test]
 fn long_repetitions_take_linear_time() {
     for piece in PIECES {
@@ -183,7 +183,7 @@ fn long_repetitions_take_linear_time() {
                 version,
                 piece,
                 SourceMap::MAX_BYTES / 32,
-                Duration::from_secs(10),
+                Duration::from_secs(60),
             );
         }
     }
