@@ -1,12 +1,24 @@
 //! JSON as the tree that TOML is read into, so that one reader with one set of messages serves both.
 //!
-//! JSON has no infinities and no NaN: the texts `"inf"`, `"-inf"` and `"nan"` are these numbers, wherever they stand.
+//! JSON has no infinities and no NaN: the texts `"inf"`, `"-inf"` and `"nan"` are these numbers, wherever they stand, and
+//! so are the words `Infinity`, `-Infinity` and `NaN`, which many writers of JSON put there. A member that is `null` is
+//! not there.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::scene::error::{Problems, rules};
 use crate::scene::include::MAX_NESTING;
+
+/// How the numbers that JSON does not have may be written, and how TOML writes them.
+const SPECIAL: [(&str, &str); 6] = [
+    ("nan", "nan"),
+    ("inf", "inf"),
+    ("-inf", "-inf"),
+    ("NaN", "nan"),
+    ("Infinity", "inf"),
+    ("-Infinity", "-inf"),
+];
 
 /// The object that a JSON text is; `None`, and the problem, if it is none.
 pub(super) fn parse<'t>(text: &'t str, problems: &mut Problems) -> Option<DeTable<'t>> {
@@ -99,8 +111,10 @@ impl<'t> Parser<'t> {
                 return Err(Wrong { at, message });
             }
             self.expect(':', "behind a key")?;
-            let value = self.value(depth)?;
-            table.insert(key, value);
+            if !self.null() {
+                let value = self.value(depth)?;
+                table.insert(key, value);
+            }
             if self.peek() == Some(',') {
                 self.at += 1;
                 continue;
@@ -145,14 +159,14 @@ impl<'t> Parser<'t> {
             }
             Some('"') => {
                 let text = self.string()?;
-                let number = ["nan", "inf", "-inf"].into_iter().find(|n| *n == text);
-                match number {
-                    Some(number) => self.as_toml(number, start)?,
+                match SPECIAL.into_iter().find(|(name, _)| *name == text) {
+                    Some((_, number)) => self.as_toml(number, start)?,
                     None => DeValue::String(text.into()),
                 }
             }
-            Some('-' | '0'..='9') => self.number()?,
-            Some('a'..='z') => self.word()?,
+            Some('-') if !self.rest().starts_with("-I") => self.number()?,
+            Some('0'..='9') => self.number()?,
+            Some('-' | 'a'..='z' | 'A'..='Z') => self.word()?,
             _ => {
                 let found = self.found();
                 return self.wrong(format!("a value must stand here, not {found}"));
@@ -161,17 +175,36 @@ impl<'t> Parser<'t> {
         Ok(Spanned::new(start..self.at, value))
     }
 
-    /// `true` or `false`.
-    fn word(&mut self) -> Parsed<DeValue<'t>> {
+    /// The word that begins here; a minus may belong to it.
+    fn letters(&self) -> &'t str {
         let rest = self.rest();
-        let length = rest
-            .find(|c: char| !c.is_ascii_alphanumeric())
-            .unwrap_or(rest.len());
-        let value = match &rest[..length] {
+        let end = |(at, c): (usize, char)| !c.is_ascii_alphanumeric() && (at, c) != (0, '-');
+        let length = rest.char_indices().find(|found| end(*found));
+        &rest[..length.map_or(rest.len(), |(at, _)| at)]
+    }
+
+    /// Skips `null`, if it stands here.
+    fn null(&mut self) -> bool {
+        let found = self.peek() == Some('n') && self.letters() == "null";
+        if found {
+            self.at += "null".len();
+        }
+        found
+    }
+
+    /// `true`, `false`, or a number that has a name.
+    fn word(&mut self) -> Parsed<DeValue<'t>> {
+        let word = self.letters();
+        let length = word.len();
+        let value = match word {
             "true" => DeValue::Boolean(true),
             "false" => DeValue::Boolean(false),
-            "null" => return self.wrong("`null` has no meaning in a case: leave the key out"),
-            other => return self.wrong(format!("`{other}` is no JSON")),
+            "null" => return self.wrong("`null` has no meaning in a list"),
+            // As numbers outside quotes only the words that begin with a capital are in use.
+            _ => match SPECIAL[3..].iter().find(|(name, _)| *name == word) {
+                Some((_, number)) => self.as_toml(number, self.at)?,
+                None => return self.wrong(format!("`{word}` is no JSON")),
+            },
         };
         self.at += length;
         Ok(value)

@@ -7,8 +7,9 @@
 //! `Observed` with what an invocation expects. The GPU's way, `OnGpu`, only has to give `Observed`s as well. Where a wrong
 //! number was born is told by the trace of the CPU.
 //!
-//! Files, in the order of the data: `json` (JSON as the tree that TOML is read into), `read` (the tree to a [`Case`]),
-//! `quantity` (what can be expected), `run` (the CPU), `gpu` and `slack` (the GPU, and how far it may be off), `judge`.
+//! Files, in the order of the data: `json` (JSON as the tree that TOML is read into), `read`, `registers` and `texture`
+//! (the tree to a [`Case`]), `quantity` (what can be expected), `run` (the CPU), `gpu` and `slack` (the GPU, and how far it
+//! may be off), `judge`.
 
 #[cfg(feature = "gpu")]
 mod gpu;
@@ -16,9 +17,11 @@ mod json;
 mod judge;
 mod quantity;
 mod read;
+mod registers;
 mod run;
 #[cfg(feature = "gpu")]
 mod slack;
+mod texture;
 
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,9 @@
 
 use toml::de::DeValue;
 
-use super::{Expectation, Expected, Invocation, Quantity, Stage, json};
+use super::registers::{constants, expectation, register};
+use super::texture::bound;
+use super::{Expectation, Invocation, Quantity, Stage, json};
 use crate::diagnostic::Span;
 use crate::exec::STAGES;
 use crate::isa::register::VERTEX_CONSTANTS;
@@ -10,16 +12,14 @@ use crate::isa::{RegisterFile, Version};
 use crate::kernel::{Options, Projection};
 use crate::raster::{RenderState, Vertex};
 use crate::scene::draw::numbered;
-use crate::scene::error::{Problems, advice, rules};
+use crate::scene::error::{Problems, rules};
 use crate::scene::files::Files;
 use crate::scene::include::{parse, utf8};
 use crate::scene::load::load;
-use crate::scene::section::{At, Node, Section};
+use crate::scene::section::{At, Section};
 use crate::scene::shader::{self, Keys, Named, lowered};
 use crate::scene::state::{bump, sampler, state};
-use crate::scene::texture::{self, Source};
 use crate::scene::{LoadOptions, Resolver, Shader};
-use crate::texture::{Format, Texture, TextureKind};
 
 /// The largest absolute difference that passes where a case says nothing else.
 pub const DEFAULT_TOLERANCE: f64 = 1e-6;
@@ -131,6 +131,7 @@ struct Draft {
 fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -> Option<Draft> {
     let s = &mut root;
     let name: Option<String> = s.get("name", problems);
+    remarks(s);
     let vertex = listing(s, &VERTEX, files, problems);
     let pixel = listing(s, &PIXEL, files, problems);
     // A listing that is refused is there all the same, for what else the case says.
@@ -161,7 +162,7 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
         .table("state", problems)
         .map(|table| state(table, problems))
         .unwrap_or_default();
-    let clear = s.array_or("clear", [0.0; 4], problems);
+    let clear = s.color_or("clear", [0.0; 4], problems);
 
     let scope = Scope {
         has_vertex_shader: given(&vertex),
@@ -179,7 +180,7 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
             invocations.extend(base.clone().invocation(None, s, &scope, problems));
         }
         Some(node) => {
-            let list = node.into_list("a list of tables, `[[invocation]]`", problems);
+            let list = node.into_tables("a list of tables, `[[invocation]]`", problems);
             for (node, number) in list.into_iter().zip(1..) {
                 if number > MAX_INVOCATIONS {
                     let message = format!("a case has up to {MAX_INVOCATIONS} invocations");
@@ -191,6 +192,7 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
                     continue;
                 };
                 let name = table.get("name", problems);
+                remarks(&mut table);
                 let parts = Parts::read(&mut table, &scope, problems).over(&base);
                 places.push(table.span);
                 invocations.extend(parts.invocation(name, &table, &scope, problems));
@@ -216,6 +218,13 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
         invocations,
         places,
     })
+}
+
+/// Takes out what a case says to those who read it.
+fn remarks(s: &mut Section<'_>) {
+    for key in ["description", "comment", "note", "source"] {
+        s.node(key);
+    }
 }
 
 /// Whether and how a case gives a kind of shader.
@@ -258,8 +267,10 @@ fn listing(
 ) -> Given {
     // An empty text is no shader.
     let empty = |value: &DeValue<'_>| matches!(value, DeValue::String(s) if s.trim().is_empty());
-    if s.peek(keys.text).is_some_and(empty) {
-        s.node(keys.text);
+    for key in [keys.text, keys.file] {
+        if s.peek(key).is_some_and(empty) {
+            s.node(key);
+        }
     }
     if !s.has(keys.text) && !s.has(keys.file) {
         // The keys are known, though they are not there.
@@ -297,53 +308,6 @@ fn by_stage<'i>(
     }
 }
 
-/// A texture. One from a file may repeat what it is; it must be that.
-fn bound(
-    mut section: Section<'_>,
-    files: &mut Files<'_>,
-    problems: &mut Problems,
-) -> Option<Texture> {
-    let span = section.span;
-    let said = section.has("file").then(|| {
-        let s = &mut section;
-        let kind = s.at::<String>("kind", problems);
-        let format = s.at::<String>("format", problems);
-        (kind, format, s.at::<Vec<u32>>("size", problems))
-    });
-    let texture = match texture::read(section, files, problems)? {
-        Source::Loaded(texture) => texture,
-        Source::Target(_) | Source::Irradiance { .. } => {
-            let message =
-                "a case has no render targets: a texture is made from `texels`, `raw` or `file`";
-            problems.error(&rules::CONTENT, span, message);
-            return None;
-        }
-    };
-    if let Some((kind, format, size)) = said {
-        let mut differ = |span: Span, what: &str, is: String| {
-            let message = format!("the {what} of the file is {is}");
-            problems.error(&rules::CONTENT, span, message);
-        };
-        if let Some(At { value, span }) = kind
-            && value.parse::<TextureKind>() != Ok(texture.kind())
-        {
-            differ(span, "kind", texture.kind().to_string());
-        }
-        if let Some(At { value, span }) = format
-            && value.parse::<Format>() != Ok(texture.format())
-        {
-            differ(span, "format", texture.format().to_string());
-        }
-        let is = texture.size();
-        if let Some(At { value, span }) = size
-            && (value.len() > 3 || (0..3).any(|i| value.get(i).copied().unwrap_or(1) != is[i]))
-        {
-            differ(span, "size", format!("{is:?}"));
-        }
-    }
-    Some(texture)
-}
-
 /// What `D3DTTFF_PROJECTED` divides by. Coordinates of a vertex shader always by the fourth component; others as
 /// measured on hardware, where `count` is `D3DTTFF_COUNT…` and the coordinates of a case have four components.
 fn divisor(count: u32, has_vertex_shader: bool) -> Projection {
@@ -376,12 +340,12 @@ fn no_depth(
 }
 
 /// What the shaders of a case make of its keys.
-struct Scope {
+pub(super) struct Scope {
     has_vertex_shader: bool,
     has_depth: bool,
-    quantities: Vec<Quantity>,
+    pub(super) quantities: Vec<Quantity>,
     /// Whether `quantities` is complete.
-    known: bool,
+    pub(super) known: bool,
 }
 
 /// What both a case and its invocations may say.
@@ -423,7 +387,7 @@ impl Parts {
             parts.expect = expectation(table, scope, problems);
         }
         if let Some(node) = s.node("accept") {
-            let list = node.into_list("a list of tables like `expect`", problems);
+            let list = node.into_tables("a list of tables like `expect`", problems);
             let tables = list.into_iter().zip(1..).filter_map(|(node, number)| {
                 let table = node.into_section(format!("result {number} of `accept`"), problems)?;
                 Some(expectation(table, scope, problems))
@@ -521,105 +485,4 @@ impl Parts {
         lay(&mut invocation.texcoords, self.texcoords);
         Some(invocation)
     }
-}
-
-/// One to four numbers, the rest from `fill`; a single number without a list fills all four components.
-fn register(node: Node<'_>, fill: [f32; 4], problems: &mut Problems) -> Option<[f32; 4]> {
-    if let DeValue::Integer(_) | DeValue::Float(_) = node.value.get_ref() {
-        return node.read::<f32>(problems).map(|at| [at.value; 4]);
-    }
-    let numbers = components(node, 4, problems)?;
-    let mut register = fill;
-    for (component, number) in register.iter_mut().zip(numbers) {
-        *component = number;
-    }
-    Some(register)
-}
-
-/// A list of one to `most` numbers.
-fn components(node: Node<'_>, most: usize, problems: &mut Problems) -> Option<Vec<f32>> {
-    if !matches!(node.value.get_ref(), DeValue::Array(_)) {
-        let expected = match most {
-            1 => "a number".to_owned(),
-            _ => format!("a number, or a list of one to {most}"),
-        };
-        node.refuse(&expected, problems);
-        return None;
-    }
-    let key = node.key.clone();
-    let At { value, span } = node.read::<Vec<f32>>(problems)?;
-    if (1..=most).contains(&value.len()) {
-        return Some(value);
-    }
-    let count = value.len();
-    let message = match most {
-        1 => format!("`{key}` has {count} numbers; it is a single one"),
-        _ => format!("`{key}` has {count} numbers; a register has one to {most}"),
-    };
-    problems.error(&rules::VALUE, span, message);
-    None
-}
-
-fn constants(
-    s: &mut Section<'_>,
-    key: &'static str,
-    count: u32,
-    problems: &mut Problems,
-) -> Vec<(u32, [f32; 4])> {
-    let mut constants = Vec::new();
-    let Some(mut table) = s.table(key, problems) else {
-        return constants;
-    };
-    for node in table.rest() {
-        let Some(number) = numbered(&node.key, "c", count as usize) else {
-            let message = format!("{} has no register `{}`", table.title, node.key);
-            let help = Some(format!("there are `c0` to `c{}`", count - 1));
-            problems.error_with(&rules::KEY, node.key_span, message, help);
-            continue;
-        };
-        if let Some(value) = register(node, [0.0; 4], problems) {
-            constants.push((number as u32, value));
-        }
-    }
-    constants
-}
-
-fn expectation(mut table: Section<'_>, scope: &Scope, problems: &mut Problems) -> Expectation {
-    let mut expectation = Expectation {
-        killed: table.get("killed", problems),
-        ..Expectation::default()
-    };
-    for node in table.rest() {
-        let found = (scope.quantities.iter().copied())
-            .find(|quantity| quantity.to_string().eq_ignore_ascii_case(&node.key));
-        let Some(quantity) = found else {
-            // Without its listing it cannot be said what the case may expect.
-            if scope.known {
-                let names: Vec<String> = (scope.quantities.iter().map(Quantity::to_string))
-                    .chain(["killed".to_owned()])
-                    .collect();
-                let message = format!("{} has no `{}`", table.title, node.key);
-                let help = advice(&node.key, names.iter().map(String::as_str));
-                problems.error_with(&rules::KEY, node.key_span, message, help);
-            }
-            continue;
-        };
-        let most = quantity.components();
-        let number = matches!(
-            node.value.get_ref(),
-            DeValue::Integer(_) | DeValue::Float(_)
-        );
-        let components = if number {
-            node.read::<f32>(problems).map(|at| vec![at.value; most])
-        } else {
-            components(node, most, problems)
-        };
-        if let Some(components) = components {
-            expectation.values.push(Expected {
-                quantity,
-                components,
-            });
-        }
-    }
-    expectation
 }

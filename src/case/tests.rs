@@ -1,5 +1,7 @@
 //! The format, its errors, and what is told of wrong numbers.
 
+mod forms;
+
 use super::*;
 use crate::scene::LoadOptions;
 use std::collections::BTreeMap;
@@ -131,7 +133,7 @@ fn broken_json_is_told_at_its_place() {
             "1:8: error[F1]: a value must stand here, not `}`",
         ),
         ("{\"ps\": nul}", "`nul` is no JSON"),
-        ("{\"ps\": null}", "`null` has no meaning in a case"),
+        ("{\"ps\": [null]}", "`null` has no meaning in a list"),
         ("{\"tol\": 1.2.3}", "1:9: error[F1]: `1.2.3` is no number"),
         ("{\"ps\": \"a\\q\"}", "JSON has no such escape"),
         ("{\"ps\": \"\\ud800\"}", "this escape is no character"),

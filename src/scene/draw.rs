@@ -173,9 +173,12 @@ pub(super) fn read(
     })
 }
 
-/// The number of a key made of a prefix and a number below `count`, such as `v3`.
+/// The number of a key made of a prefix, in any case, and a number below `count`, such as `v3`.
 pub(crate) fn numbered(key: &str, prefix: &str, count: usize) -> Option<usize> {
-    let digits = key.strip_prefix(prefix)?;
+    let (first, digits) = key.split_at_checked(prefix.len())?;
+    if !first.eq_ignore_ascii_case(prefix) {
+        return None;
+    }
     let plain = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
     plain
         .then(|| digits.parse().ok())

@@ -99,7 +99,7 @@ fn read(bytes: &[u8], files: &mut Files<'_>, problems: &mut Problems) -> Option<
     let included = include::read(&mut root, files, problems);
     include::merge(&mut root, &included, problems);
     let size = size(&mut root, problems);
-    let clear = root.array_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
+    let clear = root.color_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
     let time = root.or("time", 0.0, problems);
     let light_direction: [f32; 3] = root.array_or("light_direction", [0.0, -1.0, 0.0], problems);
     let camera = root

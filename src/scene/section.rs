@@ -54,6 +54,20 @@ pub(crate) struct Section<'i> {
     outermost: bool,
 }
 
+/// Reads a name. It may also be written in capitals, with `_` between its words, and as the constant of Direct3D:
+/// `srcalpha`, `SrcAlpha`, `src_alpha` and `D3DBLEND_SRCALPHA` are one.
+pub(crate) fn parse_name<T: std::str::FromStr>(text: &str) -> Result<T, T::Err> {
+    text.parse().or_else(|error| {
+        let constant = text.split_once('_').filter(|(prefix, _)| {
+            let first = prefix.get(..3);
+            first.is_some_and(|first| first.eq_ignore_ascii_case("d3d"))
+        });
+        let name = constant.map_or(text, |(_, name)| name);
+        let plain = name.replace('_', "").to_ascii_lowercase();
+        plain.parse().map_err(|_| error)
+    })
+}
+
 /// What a kind of TOML value is called.
 fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
@@ -298,10 +312,36 @@ impl<'i> Section<'i> {
         let Some(At { value, span }) = self.at::<String>(key, problems) else {
             return default;
         };
-        value.parse().unwrap_or_else(|error: T::Err| {
+        parse_name(&value).unwrap_or_else(|error: T::Err| {
             problems.error(&rules::VALUE, span, format!("`{key}`: {error}"));
             default
         })
+    }
+
+    /// Takes a colour out: a list of its channels, or a number that all of them have. An alpha that is left out is that
+    /// of the default.
+    pub(crate) fn color_or<const N: usize>(
+        &mut self,
+        key: &'static str,
+        default: [f32; N],
+        problems: &mut Problems,
+    ) -> [f32; N] {
+        match self.peek(key) {
+            Some(DeValue::Integer(_) | DeValue::Float(_)) => {
+                let channel = self.get(key, problems);
+                channel.map_or(default, |channel| [channel; N])
+            }
+            Some(DeValue::Array(list)) if N == 4 && list.len() == 3 => {
+                let given: [f32; 3] = self.array_or(key, [0.0; 3], problems);
+                let mut color = default;
+                color
+                    .iter_mut()
+                    .zip(given)
+                    .for_each(|(to, from)| *to = from);
+                color
+            }
+            _ => self.array_or(key, default, problems),
+        }
     }
 
     /// Takes out a table within this one.
@@ -401,6 +441,14 @@ impl<'i> Node<'i> {
                 value,
             })
             .collect()
+    }
+
+    /// The entries of a list of tables; one table without a list is the only one.
+    pub(crate) fn into_tables(self, expected: &str, problems: &mut Problems) -> Vec<Node<'i>> {
+        match self.value.get_ref() {
+            DeValue::Table(_) => vec![self],
+            _ => self.into_list(expected, problems),
+        }
     }
 
     /// Reports that the value is of none of the kinds that it may be.

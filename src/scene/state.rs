@@ -4,7 +4,7 @@ use glam::Vec4;
 use toml::de::DeValue;
 
 use super::error::{Problems, rules};
-use super::section::{At, Section};
+use super::section::{At, Exactly, Section, parse_name};
 use crate::raster::{
     AlphaTest, BlendState, ColorMask, DepthState, FogState, PointState, RenderState, StencilState,
 };
@@ -69,7 +69,7 @@ fn color_mask(section: &mut Section<'_>, problems: &mut Problems) -> ColorMask {
     if let DeValue::String(letters) = node.value.get_ref() {
         let mut bits = 0;
         for letter in letters.chars() {
-            match "rgba".find(letter) {
+            match "rgba".find(letter.to_ascii_lowercase()) {
                 Some(bit) => bits |= 1 << bit,
                 None => {
                     let message = format!("`color_write`: `{letter}` is none of r, g, b, a");
@@ -95,7 +95,7 @@ fn fog(mut s: Section<'_>, problems: &mut Problems) -> FogState {
     let default = FogState::default();
     let state = FogState {
         enable: s.or("enable", true, problems),
-        color: s.array_or("color", default.color, problems),
+        color: fog_color(&mut s, default.color, problems),
         table: s.named("table", default.table, problems),
         distance: default.distance,
         start: s.or("start", default.start, problems),
@@ -109,6 +109,18 @@ fn fog(mut s: Section<'_>, problems: &mut Problems) -> FogState {
     }
     s.finish(problems);
     state
+}
+
+/// Red, green and blue. The alpha of `D3DRS_FOGCOLOR`, which may stand behind them, has no effect.
+fn fog_color(s: &mut Section<'_>, default: [f32; 3], problems: &mut Problems) -> [f32; 3] {
+    match s.peek("color") {
+        Some(DeValue::Array(list)) if list.len() == 4 => {
+            let [red, green, blue] = default;
+            let [red, green, blue, _] = s.array_or("color", [red, green, blue, 0.0], problems);
+            [red, green, blue]
+        }
+        _ => s.color_or("color", default, problems),
+    }
 }
 
 fn stencil(mut s: Section<'_>, problems: &mut Problems) -> StencilState {
@@ -188,7 +200,7 @@ pub(crate) fn sampler(s: &mut Section<'_>, weights: Weights, problems: &mut Prob
             default.max_mip_level.into(),
             problems,
         ) as u32,
-        border: s.array_or("border", default.border, problems),
+        border: s.color_or("border", default.border, problems),
         seamless: s.or("seamless", default.seamless, problems),
         weights,
     }
@@ -204,7 +216,7 @@ where
     T: std::str::FromStr,
     T::Err: std::fmt::Display,
 {
-    match name.parse() {
+    match parse_name(name) {
         Ok(value) => Some(value),
         Err(error) => {
             let error: T::Err = error;
@@ -220,17 +232,41 @@ fn filter_name(node: super::section::Node<'_>, problems: &mut Problems) -> Filte
     let Some(At { value, span }) = node.read::<String>(problems) else {
         return Filter::default();
     };
-    if value.eq_ignore_ascii_case("anisotropic") {
+    if parse_name::<Anisotropic>(&value).is_ok() {
         return Filter::Linear;
     }
     parse(&value, &key, span, problems).unwrap_or_default()
 }
 
+/// The name of a filter that is done as another one.
+struct Anisotropic;
+
+impl std::str::FromStr for Anisotropic {
+    type Err = ();
+
+    fn from_str(name: &str) -> Result<Self, ()> {
+        (name == "anisotropic").then_some(Self).ok_or(())
+    }
+}
+
 /// Reads the bump mapping keys of a stage.
 pub(crate) fn bump(s: &mut Section<'_>, problems: &mut Problems) -> BumpState {
     let default = BumpState::default();
+    // The four numbers, or the two rows: (m00, m01) and (m10, m11).
+    let first = match s.peek("bump_mat") {
+        Some(DeValue::Array(list)) => list.first().map(toml::Spanned::get_ref),
+        _ => None,
+    };
+    let matrix = if let Some(DeValue::Array(_)) = first {
+        let rows = s.array::<Exactly<f32, 2>, 2>("bump_mat", problems);
+        rows.map_or(default.matrix, |At { value: [u, v], .. }| {
+            [u.0[0], u.0[1], v.0[0], v.0[1]]
+        })
+    } else {
+        s.array_or("bump_mat", default.matrix, problems)
+    };
     BumpState {
-        matrix: s.array_or("bump_mat", default.matrix, problems),
+        matrix,
         luminance_scale: s.or("lum_scale", default.luminance_scale, problems),
         luminance_offset: s.or("lum_offset", default.luminance_offset, problems),
     }

@@ -87,7 +87,7 @@ pub(super) fn read(
     let s = &mut section;
     let span = s.span;
     let kind = s.named("kind", Kind::Flat, problems);
-    let clear = s.array_or("clear", [0.0; 4], problems);
+    let clear = s.color_or("clear", [0.0; 4], problems);
     let mipmaps = s.or("mipmaps", false, problems);
     if !s.has("draws") {
         s.missing("`draws`", problems);

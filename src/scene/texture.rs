@@ -1,5 +1,8 @@
 //! `[textures.NAME]`.
 
+use toml::Spanned;
+use toml::de::{DeArray, DeValue};
+
 use super::error::{Problems, rules};
 use super::files::{Files, extension};
 use super::generate::Request;
@@ -162,7 +165,7 @@ fn generated(s: &mut Section<'_>, span: Span, problems: &mut Problems) -> Option
 }
 
 fn faces(s: &mut Section<'_>, files: &Files<'_>, problems: &mut Problems) -> Option<Texture> {
-    let paths = s.array::<toml::Spanned<String>, 6>("faces", problems)?;
+    let paths = s.array::<Spanned<String>, 6>("faces", problems)?;
     let mut faces = Vec::with_capacity(6);
     for path in paths.value {
         let span = problems.span(path.span());
@@ -201,21 +204,9 @@ fn inline(s: &mut Section<'_>, signed: Signed, problems: &mut Problems) -> Optio
     if !s.has("size") {
         s.missing("a `size`", problems);
     }
-    let size = match s.at::<Vec<u32>>("size", problems) {
-        Some(At { value, .. }) if value.len() == 2 => Some([value[0], value[1], 1]),
-        Some(At { value, .. }) if value.len() == 3 => Some([value[0], value[1], value[2]]),
-        Some(At { value, span }) => {
-            let message = format!(
-                "`size` has {} numbers; it is width and height, and depth for a volume",
-                value.len()
-            );
-            problems.error(&rules::VALUE, span, message);
-            None
-        }
-        None => None,
-    };
+    let size = size(s, kind, problems);
     if let Some(node) = s.node("texels") {
-        let levels = levels::<Vec<f32>>(node, s.node("mips"), problems)?;
+        let levels = levels(node, s.node("mips"), problems, texels)?;
         let levels: Vec<Vec<[f32; 4]>> = levels
             .into_iter()
             .map(|level| level.into_iter().map(texel).collect())
@@ -226,7 +217,8 @@ fn inline(s: &mut Section<'_>, signed: Signed, problems: &mut Problems) -> Optio
             problems,
         );
     }
-    let levels = levels::<u32>(s.node("raw")?, s.node("mips"), problems)?;
+    let words = |node: Node<'_>, problems: &mut Problems| node.read(problems).map(|at| at.value);
+    let levels: Vec<Vec<u32>> = levels(s.node("raw")?, s.node("mips"), problems, words)?;
     let bytes: Result<Vec<Vec<u8>>, TextureError> = levels
         .iter()
         .map(|words| words_to_bytes(format, words))
@@ -239,18 +231,77 @@ fn inline(s: &mut Section<'_>, signed: Signed, problems: &mut Problems) -> Optio
     )
 }
 
-/// The largest level and those of `mips`.
-fn levels<T: serde::de::DeserializeOwned>(
+/// Width, height and depth. One number is the edge of a cube.
+fn size(s: &mut Section<'_>, kind: TextureKind, problems: &mut Problems) -> Option<[u32; 3]> {
+    let is_cube = kind == TextureKind::Cube;
+    if let Some(DeValue::Integer(_)) = s.peek("size")
+        && is_cube
+    {
+        return s.get("size", problems).map(|edge| [edge, edge, 1]);
+    }
+    let At { value, span } = s.at::<Vec<u32>>("size", problems)?;
+    match *value.as_slice() {
+        [edge] if is_cube => Some([edge, edge, 1]),
+        [width, height] => Some([width, height, 1]),
+        [width, height, depth] => Some([width, height, depth]),
+        _ => {
+            let count = value.len();
+            let message = format!(
+                "`size` has {count} numbers; it is width and height, and depth for a volume"
+            );
+            problems.error(&rules::VALUE, span, message);
+            None
+        }
+    }
+}
+
+/// The largest level and those of `mips`, each read by `level`.
+fn levels<T>(
     first: Node<'_>,
     mips: Option<Node<'_>>,
     problems: &mut Problems,
+    level: impl Fn(Node<'_>, &mut Problems) -> Option<Vec<T>>,
 ) -> Option<Vec<Vec<T>>> {
-    let first = first.read::<Vec<T>>(problems);
-    let rest = match mips {
-        Some(node) => node.read::<Vec<Vec<T>>>(problems).map(|at| at.value),
-        None => Some(Vec::new()),
+    let rest = mips.map(|node| node.into_list("a list of levels", problems));
+    let nodes: Vec<Node<'_>> = std::iter::once(first)
+        .chain(rest.into_iter().flatten())
+        .collect();
+    nodes
+        .into_iter()
+        .map(|node| level(node, problems))
+        .collect()
+}
+
+/// The texels of a level. A number is a texel of one component, and lists of rows, slices or faces are the texels of
+/// all of them.
+fn texels(mut node: Node<'_>, problems: &mut Problems) -> Option<Vec<Vec<f32>>> {
+    fn first<'a, 'i>(list: &'a DeArray<'i>) -> Option<&'a DeValue<'i>> {
+        list.first().map(Spanned::get_ref)
+    }
+    while let DeValue::Array(list) = node.value.get_mut()
+        && let Some(DeValue::Array(row)) = first(list)
+        && let Some(DeValue::Array(_)) = first(row)
+    {
+        for row in std::mem::replace(list, DeArray::new()) {
+            let span = row.span();
+            match row.into_inner() {
+                DeValue::Array(texels) => texels.into_iter().for_each(|texel| list.push(texel)),
+                // Told when the list is read.
+                other => list.push(Spanned::new(span, other)),
+            }
+        }
+    }
+    let numbers = match node.value.get_ref() {
+        DeValue::Array(list) => {
+            matches!(first(list), Some(DeValue::Integer(_) | DeValue::Float(_)))
+        }
+        _ => false,
     };
-    Some(std::iter::once(first?.value).chain(rest?).collect())
+    if numbers {
+        let numbers = node.read::<Vec<f32>>(problems)?.value;
+        return Some(numbers.into_iter().map(|number| vec![number]).collect());
+    }
+    node.read(problems).map(|at| at.value)
 }
 
 /// A texel of one to four components; what is left out is 0, the fourth 1.

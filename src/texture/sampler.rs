@@ -39,7 +39,16 @@ impl fmt::Display for UnknownName {
 
 impl std::error::Error for UnknownName {}
 
-/// Gives an enum its names: parsing (any case), printing, the list of its members.
+/// Whether a text is a name, in any case and with or without `_` between its words.
+pub(super) fn is_name(text: &str, name: &str) -> bool {
+    fn letters(text: &str) -> impl Iterator<Item = u8> {
+        let letters = text.bytes().filter(|letter| *letter != b'_');
+        letters.map(|letter| letter.to_ascii_lowercase())
+    }
+    letters(text).eq(letters(name))
+}
+
+/// Gives an enum its names: parsing, printing, the list of its members.
 macro_rules! names {
     ($type:ty, $what:literal, $($variant:ident $name:literal),*) => {
         impl $type {
@@ -51,7 +60,7 @@ macro_rules! names {
             type Err = $crate::texture::UnknownName;
 
             fn from_str(name: &str) -> Result<Self, $crate::texture::UnknownName> {
-                $(if name.eq_ignore_ascii_case($name) {
+                $(if $crate::texture::sampler::is_name(name, $name) {
                     return Ok(Self::$variant);
                 })*
                 Err($crate::texture::UnknownName::new($what, name, [$($name),*].into_iter()))

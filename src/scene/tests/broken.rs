@@ -427,7 +427,7 @@ fn draws() {
             "",
         ),
         (
-            "state.src_blend = \"src_alpha\"",
+            "state.src_blend = \"source_alpha\"",
             "7:19: error[F3]: `src_blend`",
             "srcalpha",
         ),
