@@ -260,6 +260,26 @@ const AROUND: &[Rule] = &[
         &["samplers/point_boundary"],
     ),
     (
+        "1",
+        "nothing adds v1 to the colour of a pixel shader",
+        &["measured/specular_not_added"],
+    ),
+    (
+        "7.2",
+        "a largest level beyond the smallest, and one without a mip filter",
+        &["measured/max_mip_level"],
+    ),
+    (
+        "11",
+        "linear fog that ends where it starts",
+        &["measured/fog_start_is_end"],
+    ),
+    (
+        "11",
+        "table fog without a depth test",
+        &["measured/fog_without_depth_test"],
+    ),
+    (
         "7.2",
         "anisotropic filters magnify as linear ones",
         &["samplers/anisotropic"],
