@@ -28,6 +28,38 @@ fn the_fill_rule_examples_of_the_direct3d_documents() {
     assert!(upper.contains(&(2, 2)));
 }
 
+/// Four triangles that make a rectangle of 2 by 4, here and a little aside. The pixels are those of Windows drivers, from Wine's
+/// visual test of Direct3D 8, `test_filling_convention`.
+#[test]
+fn the_fill_rule_as_it_was_measured() {
+    let step = 1.0 / 16.0;
+    for (dx, dy, measured) in [
+        (0.0, 0.0, ["....", "TT..", "LT..", "LR..", "LB..", "...."]),
+        (-0.5, 0.5, ["....", "....", "TT..", "LR..", "LR..", "BB.."]),
+        (step, 0.0, ["....", ".TT.", ".TR.", ".LR.", ".BR.", "...."]),
+        (-step, 0.0, ["....", "TT..", "LT..", "LR..", "LB..", "...."]),
+        (0.0, -step, ["....", "LT..", "LT..", "LB..", "LB..", "...."]),
+        (0.0, step, ["....", "....", "LT..", "LT..", "LB..", "LB.."]),
+    ] {
+        let mut drawn = [[b'.'; 4]; 6];
+        for (name, corners) in [
+            (b'L', [(2, 1), (3, 3), (2, 5)]),
+            (b'T', [(2, 1), (4, 1), (3, 3)]),
+            (b'R', [(4, 1), (4, 5), (3, 3)]),
+            (b'B', [(3, 3), (4, 5), (2, 5)]),
+        ] {
+            let corners = corners.map(|(x, y)| on(x as f32 + dx, y as f32 + dy));
+            for (x, y) in hits(Topology::TriangleList, &corners, &counting()) {
+                let pixel = &mut drawn[y as usize][x as usize - 2];
+                assert_eq!(*pixel, b'.', "({x}, {y}) is drawn twice");
+                *pixel = name;
+            }
+        }
+        let drawn = drawn.map(|row| String::from_utf8(row.to_vec()).unwrap());
+        assert_eq!(drawn, measured, "{dx}, {dy}");
+    }
+}
+
 #[test]
 fn pixel_centres_are_at_integers() {
     // From -0.5 to 3.5 are the centres 0 to 3.
