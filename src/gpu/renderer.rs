@@ -12,10 +12,9 @@ use super::pipeline::Pipelines;
 use super::state::{FixedState, fixed_state};
 use super::texture::{Bound, GpuTexture, Samplers, stage_options};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
-use crate::raster::{MarkSet, RegisterPicture, RenderState, Topology};
+use crate::raster::{MarkSet, RegisterPicture, RenderState, Topology, Viewport};
 use crate::scene::{
     Output, Pass, PreparedDraw, Progress, RenderOptions, Rendered, Scene, Shader, TargetPicture,
-    clear_color,
 };
 use crate::sheet::{self, Dressing, SheetTooLarge, Tile};
 use crate::texture::Texture;
@@ -189,6 +188,9 @@ pub(super) struct Ready {
     corners: Range<u32>,
     instances: Range<u32>,
     stencil: u32,
+    viewport: Viewport,
+    /// Left, top, width and height of what may be drawn into, neither side 0.
+    scissor: [u32; 4],
 }
 
 impl<'r, 'd> Frame<'r, 'd> {
@@ -311,10 +313,14 @@ impl<'r, 'd> Frame<'r, 'd> {
         if width == 0 || height == 0 {
             return Ok(RgbaImage::new(width, height));
         }
-        let planned: Vec<_> = pass.draws.iter().map(Planned::plain).collect();
+        let planned: Vec<_> = (pass.draws.iter())
+            .map(|draw| Planned::plain(draw, pass))
+            .collect();
         let depth = pass_depth(device, pass);
         let ready = self.ready(pass, &planned, depth, steps)?;
-        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Dropped);
+        let holds = pass.surface.stored();
+        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Dropped)
+            .clearing_to(holds.depth, holds.stencil);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let mut commands = picture.begin(&mut encoder, Some(clear_bytes(pass)));
         (ready.iter().flatten()).for_each(|draw| draw.encode(&mut commands));
@@ -360,7 +366,7 @@ impl<'r, 'd> Frame<'r, 'd> {
                 target,
                 draw: draw.name,
             });
-            ready.push(self.prepare(draw, drawing, &uniforms)?);
+            ready.push(self.prepare(draw, drawing, pass.size, &uniforms)?);
             steps.done += 1;
         }
         Ok(ready)
@@ -410,6 +416,7 @@ impl<'r, 'd> Frame<'r, 'd> {
                 .and_then(|number| self.rendered.texture(number));
             StageUniforms::new(texture, &stage.sampler, stage.bump)
         });
+        let viewport = draw.state.viewport.on(size);
         let mut places = Vec::new();
         for binding in &translation.reflection.bindings {
             let constants = match &binding.resource {
@@ -422,7 +429,7 @@ impl<'r, 'd> Frame<'r, 'd> {
             let uniforms = Uniforms {
                 constants,
                 state: &draw.state,
-                viewport: size.map(|side| side as f32),
+                viewport: [viewport.width, viewport.height].map(|side| side as f32),
                 stages,
             };
             places.push((
@@ -433,18 +440,27 @@ impl<'r, 'd> Frame<'r, 'd> {
         places
     }
 
-    /// Everything that a draw needs on the device; none if it draws nothing.
+    /// Everything that a draw needs on the device, to be drawn into a picture of this size; none if it draws nothing.
+    ///
+    /// # Errors
+    /// [`GpuError::Limit`] for a viewport that is larger than the device's pictures; and what the device reports.
     pub(super) fn prepare(
         &mut self,
         draw: &PreparedDraw<'_>,
         drawing: &Drawing,
+        size: [u32; 2],
         uniforms: &wgpu::Buffer,
     ) -> Result<Option<Ready>, GpuError> {
+        let viewport = draw.state.viewport.on(size);
+        let Some(scissor) = common([0, 0, size[0], size[1]], viewport.rectangle()) else {
+            return Ok(None);
+        };
+        (self.renderer.device).check_size("a viewport", [viewport.width, viewport.height])?;
         let translation = &drawing.translation;
         let device = self.renderer.device;
         let points = draw.topology == Topology::PointList;
         let count = draw.mesh.vertex_count() as u32;
-        let indices = self.meshes.indices(device, draw.mesh, draw.topology);
+        let indices = self.meshes.indices(device, draw);
         if count == 0 || indices.as_ref().is_some_and(|(_, count)| *count == 0) {
             return Ok(None);
         }
@@ -488,6 +504,8 @@ impl<'r, 'd> Frame<'r, 'd> {
             instances: if points { 0..count } else { 0..1 },
             indices: indices.map(|(buffer, _)| buffer),
             stencil: draw.state.stencil.reference.into(),
+            viewport,
+            scissor,
         }))
     }
 
@@ -526,11 +544,13 @@ impl<'r, 'd> Frame<'r, 'd> {
 }
 
 impl<'p> Planned<'p> {
-    /// The draw as it is.
-    pub(super) fn plain(draw: &'p PreparedDraw<'p>) -> Self {
+    /// A draw of a pass as it is.
+    pub(super) fn plain(draw: &'p PreparedDraw<'p>, pass: &Pass<'_>) -> Self {
+        let mut state = draw.state.clone();
+        state.color_mask = pass.surface.format.written(state.color_mask);
         Self {
             draw,
-            state: draw.state.clone(),
+            state,
             show: None,
             format: COLOR_FORMAT,
         }
@@ -545,7 +565,7 @@ pub(super) fn pass_depth(device: &Device, pass: &Pass<'_>) -> wgpu::TextureForma
 
 /// What a pass is cleared to: as eight bits hold it, so that rounding is not left to the device.
 pub(super) fn clear_bytes(pass: &Pass<'_>) -> [f64; 4] {
-    clear_color(pass.clear).map(|byte| f64::from(byte) / 255.0)
+    (pass.surface.stored().color).map(|byte| f64::from(byte) / 255.0)
 }
 
 /// A picture of the bytes that came back.
@@ -554,7 +574,24 @@ pub(super) fn image([width, height]: [u32; 2], bytes: Vec<u8>) -> Result<RgbaIma
         .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
 }
 
+/// What two rectangles have in common, each with its left, top, width and height; none if that is nothing.
+fn common(a: [u32; 4], b: [u32; 4]) -> Option<[u32; 4]> {
+    let [left, top] = [0, 1].map(|axis| a[axis].max(b[axis]));
+    let end = |axis: usize| {
+        let [a, b] = [a, b].map(|one| one[axis].saturating_add(one[axis + 2]));
+        a.min(b)
+    };
+    let [width, height] = [end(0).saturating_sub(left), end(1).saturating_sub(top)];
+    (width > 0 && height > 0).then_some([left, top, width, height])
+}
+
 impl Ready {
+    /// The same, drawn into a part of the picture only; none if it draws nothing there.
+    pub(super) fn within(self, part: [u32; 4]) -> Option<Self> {
+        let scissor = common(self.scissor, part)?;
+        Some(Self { scissor, ..self })
+    }
+
     /// The same with one primitive only; none if there is no such primitive.
     pub(super) fn primitive(mut self, topology: Topology, number: usize) -> Option<Self> {
         let number = u32::try_from(number).ok()?;
@@ -581,6 +618,10 @@ impl Ready {
             commands.set_vertex_buffer(slot, buffer.slice(..));
         }
         commands.set_stencil_reference(self.stencil);
+        let [x, y, width, height] = self.viewport.rectangle().map(|v| v as f32);
+        commands.set_viewport(x, y, width, height, 0.0, 1.0);
+        let [x, y, width, height] = self.scissor;
+        commands.set_scissor_rect(x, y, width, height);
         let (corners, instances) = (self.corners.clone(), self.instances.clone());
         match &self.indices {
             Some(buffer) => {

@@ -4,8 +4,7 @@ use std::collections::VecDeque;
 
 use super::prepare::{Output, PreparedDraw};
 use super::render::{RenderError, Rendering};
-use super::rendered::clear_color;
-use crate::raster::{ColorFormat, DrawError, Fragment, LoneTarget, MergeRecord, Stored, cover};
+use crate::raster::{DrawError, Fragment, LoneTarget, MergeRecord, Stored, Surface, cover};
 
 /// At most so many primitives are told of one pixel, the last ones.
 pub const MAX_EVENTS: usize = 4096;
@@ -52,13 +51,10 @@ impl Rendering<'_> {
     /// As [`Scene::render`](super::Scene::render).
     pub fn history(&self, output: Output, [x, y]: [u32; 2]) -> Result<PixelHistory, RenderError> {
         let pass = self.pass(output);
-        let clear = Stored {
-            color: pass.map_or([0; 4], |pass| clear_color(pass.clear)),
-            depth: 1.0,
-            stencil: 0,
-        };
+        let surface = pass.map_or_else(Surface::default, |pass| pass.surface);
+        let clear = surface.stored();
         let mut pixel =
-            LoneTarget::new((x, y), ColorFormat::A8R8G8B8, clear).map_err(RenderError::Size)?;
+            LoneTarget::new((x, y), surface.format, clear).map_err(RenderError::Size)?;
         let (mut events, mut left_out) = (VecDeque::new(), 0);
         for (number, draw) in pass.iter().flat_map(|pass| &pass.draws).enumerate() {
             let Some(shaded) = self.shaded(output, number) else {
