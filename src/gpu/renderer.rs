@@ -597,9 +597,10 @@ impl Ready {
         let number = u32::try_from(number).ok()?;
         let (part, first, count) = match topology {
             Topology::PointList => (&mut self.instances, number, 1),
-            Topology::LineList => (&mut self.corners, number.checked_mul(2)?, 2),
-            Topology::LineStrip => (&mut self.corners, number, 2),
             // Strips and fans are drawn as lists.
+            Topology::LineList | Topology::LineStrip => {
+                (&mut self.corners, number.checked_mul(2)?, 2)
+            }
             Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
                 (&mut self.corners, number.checked_mul(3)?, 3)
             }

@@ -44,9 +44,8 @@ pub fn fixed_state(
         primitive: wgpu::PrimitiveState {
             topology: match topology {
                 Topology::PointList => wgpu::PrimitiveTopology::TriangleStrip,
-                Topology::LineList => wgpu::PrimitiveTopology::LineList,
-                Topology::LineStrip => wgpu::PrimitiveTopology::LineStrip,
                 // Strips and fans are drawn as lists, see `primitive_indices`.
+                Topology::LineList | Topology::LineStrip => wgpu::PrimitiveTopology::LineList,
                 Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
                     wgpu::PrimitiveTopology::TriangleList
                 }

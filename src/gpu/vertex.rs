@@ -136,9 +136,10 @@ pub fn primitive_indices(topology: Topology, row: Option<&[u32]>, count: u32) ->
     let triangles = 0..length.saturating_sub(2);
     let list: Vec<u32> = match topology {
         Topology::PointList => return None,
-        Topology::LineList | Topology::LineStrip | Topology::TriangleList => {
-            return row.map(<[u32]>::to_vec);
-        }
+        Topology::LineList | Topology::TriangleList => return row.map(<[u32]>::to_vec),
+        Topology::LineStrip => (0..length.saturating_sub(1))
+            .flat_map(|i| [i, i + 1])
+            .collect(),
         Topology::TriangleStrip => triangles
             .flat_map(|i| match i % 2 {
                 0 => [i, i + 1, i + 2],
@@ -192,7 +193,9 @@ mod tests {
         assert_eq!(strip, [0, 1, 2, 1, 3, 2, 2, 3, 4]);
         let fan = primitive_indices(Topology::TriangleFan, None, 5).unwrap();
         assert_eq!(fan, [1, 2, 0, 2, 3, 0, 3, 4, 0]);
-        assert_eq!(primitive_indices(Topology::LineStrip, None, 5), None);
+        let line = primitive_indices(Topology::LineStrip, None, 3).unwrap();
+        assert_eq!(line, [0, 1, 1, 2]);
+        assert_eq!(primitive_indices(Topology::LineList, None, 5), None);
         // The same through indices: vertices 7, 5, 6, 4.
         let row = Some([7, 5, 6, 4].as_slice());
         let strip = primitive_indices(Topology::TriangleStrip, row, 8).unwrap();
@@ -200,6 +203,6 @@ mod tests {
         let fan = primitive_indices(Topology::TriangleFan, row, 8).unwrap();
         assert_eq!(fan, [5, 6, 7, 6, 4, 7]);
         let line = primitive_indices(Topology::LineStrip, row, 8).unwrap();
-        assert_eq!(line, [7, 5, 6, 4]);
+        assert_eq!(line, [7, 5, 5, 6, 6, 4]);
     }
 }
