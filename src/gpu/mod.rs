@@ -16,7 +16,6 @@
 //!
 //! - The coverage of triangle edges and the level of detail are the device's own, within what WebGPU allows.
 //! - Which pixels a line covers, and those of a wireframe, is up to the device.
-//! - Steps of `D3DRS_ZBIAS` are smaller for depths below 0.5 ([`fixed_state`]).
 //! - Floats are filtered as 16-bit ones where the device cannot filter 32-bit ones ([`AdapterInfo::float_filtering`]).
 //! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
 //!

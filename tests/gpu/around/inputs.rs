@@ -36,9 +36,7 @@ fn of(value: f32, w: f32) -> Vertex {
 /// fixed-function.md, 3. Half way on the screen between w = 1 and w = 3 is (1/2 · 1/3)/(1/2 · 1 + 1/2 · 1/3) = 1/4 of the way.
 #[test]
 fn perspective() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     let triangle = differing(of(0.0, 1.0), of(1.0, 3.0));
     let mut shows = |what: &str, vertices: &[Vertex], keys: &str, color: [u8; 4]| {
@@ -92,9 +90,7 @@ fn perspective() {
 /// and 1 it is 1/2. Coordinates are not.
 #[test]
 fn limits_at_the_vertex() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     let triangle = differing(of(-1.0, 1.0), of(3.0, 1.0));
     let mut shows = |what: &str, keys: &str, at: (u32, u32), color: [u8; 4]| {
@@ -123,9 +119,7 @@ fn limits_at_the_vertex() {
 /// fixed-function.md, 2.3: both colours of the first vertex of a triangle or line; coordinates and fog are interpolated.
 #[test]
 fn flat_shading() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     // Vertex i has (i + 1)/8.
     let numbered = |i: u8, x: f32, y: f32| Vertex {
@@ -178,9 +172,7 @@ fn flat_shading() {
 /// fixed-function.md, 15.
 #[test]
 fn sprites() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     let vertex = Vertex {
         at: [4.0, 4.0],
@@ -199,9 +191,7 @@ fn sprites() {
 /// fixed-function.md, 11: where the distance comes from. w is 2, the depth 0.25: (4 - 2)/4 = 0.5 or (4 - 0.25)/4 = 0.9375.
 #[test]
 fn distances_of_fog() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     let vertex = Vertex {
         z: 0.25,
@@ -253,9 +243,7 @@ fn distances_of_fog() {
 /// fixed-function.md, 11: an oFog that is not written is full fog, and a table ignores what is written.
 #[test]
 fn fog_of_vertices_and_of_tables() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     let unwritten = "vs_text = \"vs.1.1\\nmov oPos, v0\\nmov oD0, v1\\n\"\n";
     let fog = |keys: &str| format!("[draw.state]\nfog = {{ color = [0.2, 0.4, 0.6]{keys} }}");
@@ -287,9 +275,7 @@ fn fog_of_vertices_and_of_tables() {
 /// fixed-function.md, 5 and 6.
 #[test]
 fn stages() {
-    let Some(device) = crate::device() else {
-        return;
-    };
+    let device = crate::device();
     let mut both = Both::new(&device);
     let texture = "ps_text = \"ps.1.1\\ntex t0\\nmov r0, t0\\n\"\n";
     let unbound = scene(
