@@ -21,12 +21,14 @@ pub(super) fn filled(device: &Device, bytes: &[u8], usage: wgpu::BufferUsages) -
     buffer
 }
 
+/// Where the row of indices of a draw lies, if it has one; its mesh; the number of its topology.
+type IndexKey = (*const u32, *const Mesh, u32);
+
 /// The meshes of a scene on the device. They are told apart by where they lie, so this must not outlive the scene.
 #[derive(Debug, Default)]
 pub(super) struct MeshBuffers {
     streams: HashMap<(*const Mesh, Stream), wgpu::Buffer>,
-    /// By where the row of indices lies, or the mesh of a draw without one.
-    indices: HashMap<(*const u32, *const Mesh, u32), Option<(wgpu::Buffer, u32)>>,
+    indices: HashMap<IndexKey, Option<(wgpu::Buffer, u32)>>,
 }
 
 impl MeshBuffers {

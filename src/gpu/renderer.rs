@@ -9,10 +9,11 @@ use image::RgbaImage;
 use super::buffers::{MeshBuffers, UniformArena};
 use super::picture::{COLOR_FORMAT, Depth, Picture, depth_format};
 use super::pipeline::Pipelines;
+use super::ready::{Ready, common};
 use super::state::{FixedState, fixed_state};
 use super::texture::{Bound, GpuTexture, Samplers, stage_options};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
-use crate::raster::{MarkSet, RegisterPicture, RenderState, Topology, Viewport};
+use crate::raster::{MarkSet, RegisterPicture, RenderState, Topology};
 use crate::scene::{
     Output, Pass, PreparedDraw, Progress, RenderOptions, Rendered, Scene, Shader, TargetPicture,
 };
@@ -176,21 +177,6 @@ pub(super) struct Drawing {
     places: Vec<(u32, Range<u64>)>,
     fixed: FixedState,
     format: wgpu::TextureFormat,
-}
-
-/// A draw that only has to be encoded.
-pub(super) struct Ready {
-    pipeline: wgpu::RenderPipeline,
-    groups: [wgpu::BindGroup; 2],
-    vertices: Vec<wgpu::Buffer>,
-    indices: Option<wgpu::Buffer>,
-    /// The indices, or vertices of each instance.
-    corners: Range<u32>,
-    instances: Range<u32>,
-    stencil: u32,
-    viewport: Viewport,
-    /// Left, top, width and height of what may be drawn into, neither side 0.
-    scissor: [u32; 4],
 }
 
 impl<'r, 'd> Frame<'r, 'd> {
@@ -572,64 +558,4 @@ pub(super) fn clear_bytes(pass: &Pass<'_>) -> [f64; 4] {
 pub(super) fn image([width, height]: [u32; 2], bytes: Vec<u8>) -> Result<RgbaImage, GpuError> {
     RgbaImage::from_raw(width, height, bytes)
         .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
-}
-
-/// What two rectangles have in common, each with its left, top, width and height; none if that is nothing.
-fn common(a: [u32; 4], b: [u32; 4]) -> Option<[u32; 4]> {
-    let [left, top] = [0, 1].map(|axis| a[axis].max(b[axis]));
-    let end = |axis: usize| {
-        let [a, b] = [a, b].map(|one| one[axis].saturating_add(one[axis + 2]));
-        a.min(b)
-    };
-    let [width, height] = [end(0).saturating_sub(left), end(1).saturating_sub(top)];
-    (width > 0 && height > 0).then_some([left, top, width, height])
-}
-
-impl Ready {
-    /// The same, drawn into a part of the picture only; none if it draws nothing there.
-    pub(super) fn within(self, part: [u32; 4]) -> Option<Self> {
-        let scissor = common(self.scissor, part)?;
-        Some(Self { scissor, ..self })
-    }
-
-    /// The same with one primitive only; none if there is no such primitive.
-    pub(super) fn primitive(mut self, topology: Topology, number: usize) -> Option<Self> {
-        let number = u32::try_from(number).ok()?;
-        let (part, first, count) = match topology {
-            Topology::PointList => (&mut self.instances, number, 1),
-            // Strips and fans are drawn as lists.
-            Topology::LineList | Topology::LineStrip => {
-                (&mut self.corners, number.checked_mul(2)?, 2)
-            }
-            Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
-                (&mut self.corners, number.checked_mul(3)?, 3)
-            }
-        };
-        let end = first.checked_add(count).filter(|end| *end <= part.end)?;
-        *part = first..end;
-        Some(self)
-    }
-
-    pub(super) fn encode(&self, commands: &mut wgpu::RenderPass<'_>) {
-        commands.set_pipeline(&self.pipeline);
-        for (number, group) in (0..).zip(&self.groups) {
-            commands.set_bind_group(number, group, &[]);
-        }
-        for (slot, buffer) in (0..).zip(&self.vertices) {
-            commands.set_vertex_buffer(slot, buffer.slice(..));
-        }
-        commands.set_stencil_reference(self.stencil);
-        let [x, y, width, height] = self.viewport.rectangle().map(|v| v as f32);
-        commands.set_viewport(x, y, width, height, 0.0, 1.0);
-        let [x, y, width, height] = self.scissor;
-        commands.set_scissor_rect(x, y, width, height);
-        let (corners, instances) = (self.corners.clone(), self.instances.clone());
-        match &self.indices {
-            Some(buffer) => {
-                commands.set_index_buffer(buffer.slice(..), wgpu::IndexFormat::Uint32);
-                commands.draw_indexed(corners, 0, instances);
-            }
-            None => commands.draw(corners, instances),
-        }
-    }
 }

@@ -4,8 +4,9 @@
 use image::{Rgba, RgbaImage};
 
 use super::picture::{COLOR_FORMAT, Depth, Picture, floats};
+use super::ready::Ready;
 use super::registers::BARE;
-use super::renderer::{Frame, Planned, Ready, Steps, clear_bytes, image, pass_depth};
+use super::renderer::{Frame, Planned, Steps, clear_bytes, image, pass_depth};
 use super::{Device, GpuError};
 use crate::raster::{Mark, MarkSet, RegisterPicture, StencilOp};
 use crate::scene::{Pass, Show};

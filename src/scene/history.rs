@@ -4,7 +4,9 @@ use std::collections::VecDeque;
 
 use super::prepare::{Output, PreparedDraw};
 use super::render::{RenderError, Rendering};
-use crate::raster::{DrawError, Fragment, LoneTarget, MergeRecord, Stored, Surface, cover};
+use crate::raster::{
+    ColorFormat, DrawError, Fragment, LoneTarget, MergeRecord, Stored, Surface, cover,
+};
 
 /// At most so many primitives are told of one pixel, the last ones.
 pub const MAX_EVENTS: usize = 4096;
@@ -16,6 +18,8 @@ pub struct PixelHistory {
     pub output: Output,
     /// Column and row.
     pub pixel: [u32; 2],
+    /// What its target stores.
+    pub format: ColorFormat,
     /// What the pixel held before the first draw.
     pub clear: Stored,
     /// How many primitives came before [`Self::events`], which holds at most [`MAX_EVENTS`].
@@ -81,6 +85,7 @@ impl Rendering<'_> {
         Ok(PixelHistory {
             output,
             pixel: [x, y],
+            format: surface.format,
             clear,
             left_out,
             events: events.into(),

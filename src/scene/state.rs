@@ -194,6 +194,14 @@ fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Ve
         let message = format!("`clip_planes` has {} planes; there are six", value.len());
         problems.error(&rules::VALUE, span, message);
     }
+    if value
+        .as_flattened()
+        .iter()
+        .any(|number| !number.is_finite())
+    {
+        let message = "`clip_planes` holds an infinite number or one that is none";
+        problems.error(&rules::VALUE, span, message);
+    }
     for (plane, given) in planes.iter_mut().zip(value) {
         *plane = Some(Vec4::from_array(given));
     }
