@@ -102,7 +102,7 @@ impl<'d> OnGpu<'d> {
             };
             let translation = translation(case, &options)?;
             let shading = shading(case, &translation);
-            let frames = self.invocations.frames(&shading, &inputs, case.clear)?;
+            let frames = self.invocations.frames(&shading, &inputs, &case.target)?;
             for (observed, frame) in observed.iter_mut().zip(frames) {
                 observed.stored = frame.map(|channel| f32::from(channel) / 255.0);
                 observed
@@ -210,6 +210,7 @@ fn options(case: &Case, inputs: &[InvocationInputs], observed: Registers) -> Opt
         overridable_definitions: overrides(&case.vertex, |one| &one.vertex_constants)
             || overrides(&case.pixel, |one| &one.pixel_constants),
         half_pixel: false,
+        mapped_depth: case.state.depth_mapping() != [1.0, 0.0],
         wild_inputs: is_wild(case, inputs),
         observed: Some(observed),
         ..Options::default()

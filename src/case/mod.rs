@@ -28,7 +28,7 @@ mod tests;
 
 use crate::diagnostic::{Diagnostic, SourceMap};
 use crate::exec::STAGES;
-use crate::raster::RenderState;
+use crate::raster::{RenderState, Surface};
 use crate::scene::Shader;
 use crate::semantics::BumpState;
 use crate::texture::{Sampler, Texture};
@@ -54,8 +54,8 @@ pub struct Case {
     pub stages: [Stage; STAGES],
     /// The render states.
     pub state: RenderState,
-    /// What the target holds before the pixel: red, green, blue, alpha.
-    pub clear: [f32; 4],
+    /// What the target holds before the pixel is drawn.
+    pub target: Surface,
     /// The invocations, at least one.
     pub invocations: Vec<Invocation>,
     sources: SourceMap,

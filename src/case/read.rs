@@ -10,7 +10,7 @@ use crate::exec::STAGES;
 use crate::isa::register::VERTEX_CONSTANTS;
 use crate::isa::{RegisterFile, Version};
 use crate::kernel::{Options, Projection};
-use crate::raster::{RenderState, Vertex};
+use crate::raster::{RenderState, Surface, Vertex};
 use crate::scene::draw::numbered;
 use crate::scene::error::{Problems, rules};
 use crate::scene::files::Files;
@@ -18,7 +18,7 @@ use crate::scene::include::{parse, utf8};
 use crate::scene::load::load;
 use crate::scene::section::{At, Section};
 use crate::scene::shader::{self, Keys, Named, lowered};
-use crate::scene::state::{bump, sampler, state};
+use crate::scene::state::{bump, sampler, state, surface};
 use crate::scene::{LoadOptions, Resolver, Shader};
 
 /// The largest absolute difference that passes where a case says nothing else.
@@ -88,7 +88,7 @@ impl super::Case {
             pixel: case.pixel,
             stages: case.stages,
             state: case.state,
-            clear: case.clear,
+            target: case.target,
             invocations: case.invocations,
             sources: loaded.sources,
             warnings: loaded.warnings,
@@ -123,7 +123,7 @@ struct Draft {
     pixel: Option<Shader>,
     stages: [Stage; STAGES],
     state: RenderState,
-    clear: [f32; 4],
+    target: Surface,
     invocations: Vec<Invocation>,
     places: Vec<Span>,
 }
@@ -160,9 +160,9 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
     });
     let state = s
         .table("state", problems)
-        .map(|table| state(table, problems))
+        .map(|table| state(table, problems).state)
         .unwrap_or_default();
-    let clear = s.color_or("clear", [0.0; 4], problems);
+    let target = surface(s, [0.0; 4], problems);
 
     let scope = Scope {
         has_vertex_shader: given(&vertex),
@@ -214,7 +214,7 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
         pixel,
         stages,
         state,
-        clear,
+        target,
         invocations,
         places,
     })

@@ -199,7 +199,8 @@ pub(super) fn unsized_point(kernel: &Kernel, slot: Slot) -> bool {
 impl Run<'_> {
     /// Takes out what the invocation speaks of.
     fn collect(&mut self, invocation: &Invocation, outputs: &Vertex) {
-        let z = saturate(outputs.position.z / outputs.position.w);
+        let state = &self.case.state;
+        let z = state.depth_at(outputs.position.z / outputs.position.w);
         let replaced_z = self.pixel.as_ref().and_then(|run| {
             let writes = run.shader.kernel.writes_depth();
             writes.then(|| run.machine.lane(Slot::DEPTH, 0)[0])
@@ -215,14 +216,14 @@ impl Run<'_> {
             w: outputs.position.w,
             fog: fog_unit(outputs.fog),
         };
-        let clear = self.case.clear;
+        let target = &self.case.target;
         // A target of one pixel is never too large.
-        let merged = merge_lone(&self.case.state, &lone, clear).unwrap_or(raster::Merged {
-            exact: clear,
+        let merged = merge_lone(state, &lone, target).unwrap_or(raster::Merged {
+            exact: target.color,
             stored: [0; 4],
             fate: Fate::Killed,
         });
-        self.merging = merging(&self.case.state, merged.fate);
+        self.merging = merging(state, merged.fate);
         let value = |quantity: Quantity| Value {
             quantity,
             numbers: match quantity {

@@ -21,7 +21,7 @@ use crate::exec::{Environment, STAGES, Stage, bind_constants};
 use crate::generate::{Approx, INVOCATIONS, Options, Precision, Probe, Sampling};
 use crate::isa::{RegisterFile, ShaderKind};
 use crate::kernel::{Kernel, Slot};
-use crate::raster::Vertex;
+use crate::raster::{FogDistance, Vertex};
 use crate::scene::Shader;
 use crate::semantics::BumpState;
 use crate::texture::{AddressMode, Filter, Texture, TextureKind};
@@ -117,7 +117,8 @@ fn fill(case: &Case, textures: &Textures<'_>, invocation: &Invocation, observed:
                         .as_ref()
                         .map_or(0.0, |outputs| outputs.depth().error),
                 };
-                [error + DEPTH, 0.0, 0.0, 0.0]
+                // The range of the viewport and the bias are rounded once more.
+                [error + 2.0 * DEPTH, 0.0, 0.0, 0.0]
             }
             Quantity::Frame => frame(case, of(&pixel, Some(Slot::R0)), outputs.as_ref()),
         };
@@ -149,7 +150,16 @@ fn frame(case: &Case, color: [f64; 4], outputs: Option<&Outputs>) -> [f64; 4] {
             } else {
                 scale
             };
-            (outputs.fog.1 + outputs.depth().error) * slope + 4.0 * rounding
+            let distance = match state.fog.distance {
+                // The range of the viewport and the bias are a product and a sum more.
+                FogDistance::Z => outputs.depth().error + 2.0 * rounding,
+                // The device has 1 over it, and divides again.
+                FogDistance::W => {
+                    let w = outputs.position[3];
+                    w.error + 4.0 * rounding * w.value.abs()
+                }
+            };
+            (outputs.fog.1 + distance) * slope + 4.0 * rounding
         }
         _ => 0.0,
     };

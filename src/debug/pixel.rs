@@ -7,8 +7,8 @@ use crate::exec::Environment;
 use crate::isa::WriteMask;
 use crate::kernel::{Kernel, Slot};
 use crate::raster::{
-    ColorFormat, Fate, Fragment, Interpolation, LANES, LoneTarget, MergeRecord, PixelBatch,
-    PixelInputs, PixelResult, PixelShader, Vertex, vertex_outputs,
+    Fate, Fragment, Interpolation, LANES, LoneTarget, MergeRecord, PixelBatch, PixelInputs,
+    PixelResult, PixelShader, Vertex, vertex_outputs,
 };
 use crate::scene::{Output, PixelEvent, PixelHistory, PreparedDraw, RenderError, Rendering};
 use crate::semantics::saturate;
@@ -247,7 +247,7 @@ impl<'a> PixelSubject<'a> {
             batch: inputs.batch(&event.fragment.batch),
             ..event.fragment.clone()
         };
-        if let Some(merge) = merged(self.history.pixel, draw, event, &fragment, &run) {
+        if let Some(merge) = merged(&self.history, draw, event, &fragment, &run) {
             tell_merge(&mut run, &merge);
         }
         runs.push(run);
@@ -542,7 +542,7 @@ impl PixelShader for Recorded {
 
 /// The way of a recorded pixel through the merger.
 fn merged(
-    [x, y]: [u32; 2],
+    history: &PixelHistory,
     draw: &PreparedDraw<'_>,
     event: &PixelEvent,
     fragment: &Fragment,
@@ -562,7 +562,8 @@ fn merged(
         result,
         writes_depth: run.listing.kernel.writes_depth(),
     };
-    let mut target = LoneTarget::new((x, y), ColorFormat::A8R8G8B8, event.merge.before).ok()?;
+    let mut target =
+        LoneTarget::new(history.pixel.into(), history.format, event.merge.before).ok()?;
     Some(target.draw(&draw.state, fragment, &shader))
 }
 

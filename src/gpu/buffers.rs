@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::vertex::primitive_indices;
 use super::{Device, Stream};
 use crate::mesh::Mesh;
-use crate::raster::Topology;
+use crate::scene::PreparedDraw;
 
 /// A buffer that holds these bytes, or four zeros if there are none.
 pub(super) fn filled(device: &Device, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
@@ -21,11 +21,14 @@ pub(super) fn filled(device: &Device, bytes: &[u8], usage: wgpu::BufferUsages) -
     buffer
 }
 
+/// Where the row of indices of a draw lies, if it has one; its mesh; the number of its topology.
+type IndexKey = (*const u32, *const Mesh, u32);
+
 /// The meshes of a scene on the device. They are told apart by where they lie, so this must not outlive the scene.
 #[derive(Debug, Default)]
 pub(super) struct MeshBuffers {
     streams: HashMap<(*const Mesh, Stream), wgpu::Buffer>,
-    indices: HashMap<(*const Mesh, u32), Option<(wgpu::Buffer, u32)>>,
+    indices: HashMap<IndexKey, Option<(wgpu::Buffer, u32)>>,
 }
 
 impl MeshBuffers {
@@ -36,16 +39,17 @@ impl MeshBuffers {
         known.or_insert_with(create).clone()
     }
 
-    /// The index buffer and how many indices there are, for topologies that take one.
+    /// The index buffer and how many indices there are, for draws that take one.
     pub(super) fn indices(
         &mut self,
         device: &Device,
-        mesh: &Mesh,
-        topology: Topology,
+        draw: &PreparedDraw<'_>,
     ) -> Option<(wgpu::Buffer, u32)> {
-        let known = self.indices.entry((mesh, topology.number()));
+        let (topology, row) = (draw.topology, draw.indices());
+        let place = row.map_or(std::ptr::null(), <[u32]>::as_ptr);
+        let known = (self.indices).entry((place, draw.mesh, topology.number()));
         let create = || {
-            let indices = primitive_indices(topology, mesh)?;
+            let indices = primitive_indices(topology, row, draw.mesh.vertex_count() as u32)?;
             let bytes: Vec<u8> = indices
                 .iter()
                 .flat_map(|index| index.to_le_bytes())

@@ -9,6 +9,7 @@ const PIXEL: &str = "invocation_pixel";
 /// Locations of what goes to the pixel stage beside the varyings, which end at 12.
 const ROW: u32 = 13;
 const SEEN: u32 = 14;
+const W: u32 = 15;
 
 /// What is drawn of an invocation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,6 +145,11 @@ fn interface(text: &mut String, reflection: &Reflection) -> std::fmt::Result {
         )?;
     }
     writeln!(text, "    @location({ROW}) @interpolate(flat) row: u32,")?;
+    // The place of the pixel has a w of 1; this is 1 over that of the position.
+    writeln!(
+        text,
+        "    @location({W}) @interpolate(flat) inverse_w: f32,"
+    )?;
     writeln!(
         text,
         "    @location({SEEN}) @interpolate(flat) seen: vec4f,\n}}\n"
@@ -189,6 +195,11 @@ fn vertex_entry(
         }
     }
     writeln!(text, "    out.row = corner / 3u;")?;
+    let w = match &reflection.vertex {
+        Some(_) => "1.0 / shaded.position.w",
+        None => "1.0",
+    };
+    writeln!(text, "    out.inverse_w = {w};")?;
     if rows.pixel > rows.vertex {
         let (first, end) = (rows.vertex, rows.pixel);
         writeln!(text, "    if out.row >= {first}u && out.row < {end}u {{")?;
@@ -234,7 +245,10 @@ fn pixel_entry(
         argument = "varyings";
         writeln!(text, "    var varyings: Varyings;")?;
         if reflection.position {
-            writeln!(text, "    varyings.position = in.place;")?;
+            writeln!(
+                text,
+                "    varyings.position = vec4f(in.place.xyz, in.inverse_w);"
+            )?;
         }
         for varying in &reflection.varyings {
             writeln!(text, "    varyings.{0} = in.{0};", varying.name)?;

@@ -9,8 +9,7 @@ use super::texture::{GpuTexture, Samplers};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
 use crate::exec::{STAGES, Stage};
 use crate::isa::ShaderKind;
-use crate::raster::{Compare, CullMode, FillMode, RenderState, Topology};
-use crate::scene::clear_color;
+use crate::raster::{Compare, CullMode, FillMode, RenderState, Surface, Topology};
 use crate::wgsl::{Resource, Translation};
 
 /// What is run: the same for all invocations.
@@ -102,7 +101,8 @@ impl<'d> Invocations<'d> {
         let rows = Rows::of(shading.translation, Look::Registers);
         let mut seen = Vec::with_capacity(inputs.len());
         for some in inputs.chunks((MOST / rows.count).max(1)) {
-            let (colors, depths) = self.draw(shading, some, Look::Registers, [0.0; 4])?;
+            let surface = Surface::default();
+            let (colors, depths) = self.draw(shading, some, Look::Registers, &surface)?;
             let texels = floats(&colors);
             let depths: Vec<f32> = depths.chunks_exact(4).map(number).collect();
             let invocations = texels
@@ -127,8 +127,7 @@ impl<'d> Invocations<'d> {
         Ok(seen)
     }
 
-    /// Runs the shaders and gives what then stands in a target of 8 bits a channel that was cleared to this colour,
-    /// with depth 1 and stencil 0.
+    /// Runs the shaders and gives what then stands in a target of 8 bits a channel that held this.
     ///
     /// # Errors
     /// As [`Self::registers`], but any device has such targets.
@@ -136,13 +135,11 @@ impl<'d> Invocations<'d> {
         &mut self,
         shading: &Shading<'_>,
         inputs: &[InvocationInputs],
-        clear: [f32; 4],
+        surface: &Surface,
     ) -> Result<Vec<[u8; 4]>, GpuError> {
         let mut frames = Vec::with_capacity(inputs.len());
-        // As eight bits hold it, so that rounding is not left to the device.
-        let clear = clear_color(clear).map(|byte| f64::from(byte) / 255.0);
         for some in inputs.chunks(MOST) {
-            let (colors, _) = self.draw(shading, some, Look::Color, clear)?;
+            let (colors, _) = self.draw(shading, some, Look::Color, surface)?;
             let texels = colors.chunks_exact(4).take(some.len());
             frames.extend(texels.map(|texel| [texel[0], texel[1], texel[2], texel[3]]));
         }
@@ -155,7 +152,7 @@ impl<'d> Invocations<'d> {
         shading: &Shading<'_>,
         inputs: &[InvocationInputs],
         look: Look,
-        clear: [f64; 4],
+        surface: &Surface,
     ) -> Result<(Vec<u8>, Vec<u8>), GpuError> {
         let translation = shading.translation;
         let unsupported = |state: String| GpuError::Unsupported {
@@ -175,7 +172,11 @@ impl<'d> Invocations<'d> {
         let size = [WIDTH, (inputs.len() as u32 * rows).div_ceil(WIDTH)];
         device.check_size("a picture", size)?;
         let complete = with_entries(translation, look, size);
-        let state = state(shading.state, look);
+        let mut state = state(shading.state, look);
+        state.color_mask = surface.format.written(state.color_mask);
+        let holds = surface.stored();
+        // As eight bits hold it, so that rounding is not left to the device.
+        let clear = holds.color.map(|byte| f64::from(byte) / 255.0);
         let depth = depth_format(device, state.stencil.enable);
         let fixed =
             fixed_state(&state, Topology::TriangleList, depth, false).map_err(unsupported)?;
@@ -198,7 +199,8 @@ impl<'d> Invocations<'d> {
             Look::Color => Depth::Dropped,
             Look::Registers => Depth::Read,
         };
-        let picture = Picture::new(device, size, format, depth, after);
+        let picture = Picture::new(device, size, format, depth, after)
+            .clearing_to(holds.depth, holds.stencil);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let mut commands = picture.begin(&mut encoder, Some(clear));
         commands.set_pipeline(&pipeline.pipeline);
@@ -273,7 +275,6 @@ fn state(state: &RenderState, look: Look) -> RenderState {
     }
     lone.cull = CullMode::None;
     lone.fill = FillMode::Solid;
-    lone.depth.bias = 0;
     lone
 }
 

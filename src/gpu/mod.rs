@@ -16,12 +16,11 @@
 //!
 //! - The coverage of triangle edges and the level of detail are the device's own, within what WebGPU allows.
 //! - Which pixels a line covers, and those of a wireframe, is up to the device.
-//! - Steps of `D3DRS_ZBIAS` are smaller for depths below 0.5 ([`fixed_state`]).
 //! - Floats are filtered as 16-bit ones where the device cannot filter 32-bit ones ([`AdapterInfo::float_filtering`]).
 //! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
-//! consists of), `pipeline`, `buffers`, `picture`, `renderer`; `differences` compares pictures,
+//! consists of), `pipeline`, `buffers`, `picture`, `ready`, `renderer`; `differences` compares pictures,
 //! `shown` makes pictures of registers, `registers` and `parting` look into one pixel, `invocations` runs shaders for single invocations, for tests, by way
 //! of the entry points of `harness`, `programs` many shaders in one pipeline.
 
@@ -35,6 +34,7 @@ mod parting;
 mod picture;
 mod pipeline;
 mod programs;
+mod ready;
 mod registers;
 mod renderer;
 mod shown;

@@ -12,6 +12,8 @@ pub(super) struct Picture {
     color: wgpu::Texture,
     depth: wgpu::Texture,
     after: Depth,
+    /// What depth and stencil are cleared to.
+    cleared: (f32, u8),
 }
 
 /// What becomes of the depth behind a pass.
@@ -57,6 +59,15 @@ impl Picture {
             color: color_buffer(device, size, format),
             depth: buffer(device, size, depth, usage),
             after,
+            cleared: (1.0, 0),
+        }
+    }
+
+    /// The same, with other values than 1 and 0 that depth and stencil are cleared to.
+    pub(super) fn clearing_to(self, depth: f32, stencil: u8) -> Self {
+        Self {
+            cleared: (depth, stencil),
+            ..self
         }
     }
 
@@ -66,6 +77,7 @@ impl Picture {
             color: color_buffer(device, self.color.size(), format),
             depth: self.depth.clone(),
             after: self.after,
+            cleared: self.cleared,
         }
     }
 
@@ -74,7 +86,7 @@ impl Picture {
         [self.color.width(), self.color.height()]
     }
 
-    /// Begins a pass: the colour cleared to this one, or left as it is; depth cleared to 1, stencil to 0.
+    /// Begins a pass: the colour cleared to this one, or left as it is; depth and stencil cleared.
     pub(super) fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
@@ -123,7 +135,7 @@ impl Picture {
                 depth_ops: Some(wgpu::Operations {
                     load: match resumes {
                         true => wgpu::LoadOp::Load,
-                        false => wgpu::LoadOp::Clear(1.0),
+                        false => wgpu::LoadOp::Clear(self.cleared.0),
                     },
                     store,
                 }),
@@ -131,7 +143,7 @@ impl Picture {
                     wgpu::Operations {
                         load: match resumes {
                             true => wgpu::LoadOp::Load,
-                            false => wgpu::LoadOp::Clear(0),
+                            false => wgpu::LoadOp::Clear(self.cleared.1.into()),
                         },
                         store,
                     },

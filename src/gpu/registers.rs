@@ -85,15 +85,17 @@ impl Frame<'_, '_> {
         let corner = pixel.map(|at| at & !1);
         let [width, height] = [0, 1].map(|axis| (size[axis] - corner[axis]).min(2));
         for (number, drawing) in drawings.iter().enumerate() {
-            let ready = self.prepare(draw, drawing, &uniforms)?;
-            let Some(ready) = ready.and_then(|ready| ready.primitive(draw.topology, primitive))
+            let ready = self.prepare(draw, drawing, size, &uniforms)?;
+            let part = [corner[0], corner[1], width, height];
+            let Some(ready) = ready
+                .and_then(|ready| ready.within(part))
+                .and_then(|ready| ready.primitive(draw.topology, primitive))
             else {
                 return Ok(None);
             };
             // Whatever covers the pixel writes it, so that only the first two need a bare one.
             let clear = (number < whole.len()).then_some(BARE.map(f64::from));
             let mut commands = picture.begin(&mut encoder, clear);
-            commands.set_scissor_rect(corner[0], corner[1], width, height);
             ready.encode(&mut commands);
             drop(commands);
             picture.copy_pixel(&mut encoder, pixel, &buffer, 16 * number as u64);

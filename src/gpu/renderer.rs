@@ -9,13 +9,13 @@ use image::RgbaImage;
 use super::buffers::{MeshBuffers, UniformArena};
 use super::picture::{COLOR_FORMAT, Depth, Picture, depth_format};
 use super::pipeline::Pipelines;
+use super::ready::{Ready, common};
 use super::state::{FixedState, fixed_state};
 use super::texture::{Bound, GpuTexture, Samplers, stage_options};
 use super::{Device, GpuError, StageUniforms, Uniforms, VertexLayout};
 use crate::raster::{MarkSet, RegisterPicture, RenderState, Topology};
 use crate::scene::{
     Output, Pass, PreparedDraw, Progress, RenderOptions, Rendered, Scene, Shader, TargetPicture,
-    clear_color,
 };
 use crate::sheet::{self, Dressing, SheetTooLarge, Tile};
 use crate::texture::Texture;
@@ -179,18 +179,6 @@ pub(super) struct Drawing {
     format: wgpu::TextureFormat,
 }
 
-/// A draw that only has to be encoded.
-pub(super) struct Ready {
-    pipeline: wgpu::RenderPipeline,
-    groups: [wgpu::BindGroup; 2],
-    vertices: Vec<wgpu::Buffer>,
-    indices: Option<wgpu::Buffer>,
-    /// The indices, or vertices of each instance.
-    corners: Range<u32>,
-    instances: Range<u32>,
-    stencil: u32,
-}
-
 impl<'r, 'd> Frame<'r, 'd> {
     /// Nothing drawn yet.
     fn new(renderer: &'r mut Renderer<'d>, scene: &'r Scene, size: [u32; 2]) -> Self {
@@ -311,10 +299,14 @@ impl<'r, 'd> Frame<'r, 'd> {
         if width == 0 || height == 0 {
             return Ok(RgbaImage::new(width, height));
         }
-        let planned: Vec<_> = pass.draws.iter().map(Planned::plain).collect();
+        let planned: Vec<_> = (pass.draws.iter())
+            .map(|draw| Planned::plain(draw, pass))
+            .collect();
         let depth = pass_depth(device, pass);
         let ready = self.ready(pass, &planned, depth, steps)?;
-        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Dropped);
+        let holds = pass.surface.stored();
+        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Dropped)
+            .clearing_to(holds.depth, holds.stencil);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let mut commands = picture.begin(&mut encoder, Some(clear_bytes(pass)));
         (ready.iter().flatten()).for_each(|draw| draw.encode(&mut commands));
@@ -360,7 +352,7 @@ impl<'r, 'd> Frame<'r, 'd> {
                 target,
                 draw: draw.name,
             });
-            ready.push(self.prepare(draw, drawing, &uniforms)?);
+            ready.push(self.prepare(draw, drawing, pass.size, &uniforms)?);
             steps.done += 1;
         }
         Ok(ready)
@@ -410,6 +402,7 @@ impl<'r, 'd> Frame<'r, 'd> {
                 .and_then(|number| self.rendered.texture(number));
             StageUniforms::new(texture, &stage.sampler, stage.bump)
         });
+        let viewport = draw.state.viewport.on(size);
         let mut places = Vec::new();
         for binding in &translation.reflection.bindings {
             let constants = match &binding.resource {
@@ -422,7 +415,7 @@ impl<'r, 'd> Frame<'r, 'd> {
             let uniforms = Uniforms {
                 constants,
                 state: &draw.state,
-                viewport: size.map(|side| side as f32),
+                viewport: [viewport.width, viewport.height].map(|side| side as f32),
                 stages,
             };
             places.push((
@@ -433,18 +426,27 @@ impl<'r, 'd> Frame<'r, 'd> {
         places
     }
 
-    /// Everything that a draw needs on the device; none if it draws nothing.
+    /// Everything that a draw needs on the device, to be drawn into a picture of this size; none if it draws nothing.
+    ///
+    /// # Errors
+    /// [`GpuError::Limit`] for a viewport that is larger than the device's pictures; and what the device reports.
     pub(super) fn prepare(
         &mut self,
         draw: &PreparedDraw<'_>,
         drawing: &Drawing,
+        size: [u32; 2],
         uniforms: &wgpu::Buffer,
     ) -> Result<Option<Ready>, GpuError> {
+        let viewport = draw.state.viewport.on(size);
+        let Some(scissor) = common([0, 0, size[0], size[1]], viewport.rectangle()) else {
+            return Ok(None);
+        };
+        (self.renderer.device).check_size("a viewport", [viewport.width, viewport.height])?;
         let translation = &drawing.translation;
         let device = self.renderer.device;
         let points = draw.topology == Topology::PointList;
         let count = draw.mesh.vertex_count() as u32;
-        let indices = self.meshes.indices(device, draw.mesh, draw.topology);
+        let indices = self.meshes.indices(device, draw);
         if count == 0 || indices.as_ref().is_some_and(|(_, count)| *count == 0) {
             return Ok(None);
         }
@@ -488,6 +490,8 @@ impl<'r, 'd> Frame<'r, 'd> {
             instances: if points { 0..count } else { 0..1 },
             indices: indices.map(|(buffer, _)| buffer),
             stencil: draw.state.stencil.reference.into(),
+            viewport,
+            scissor,
         }))
     }
 
@@ -526,11 +530,13 @@ impl<'r, 'd> Frame<'r, 'd> {
 }
 
 impl<'p> Planned<'p> {
-    /// The draw as it is.
-    pub(super) fn plain(draw: &'p PreparedDraw<'p>) -> Self {
+    /// A draw of a pass as it is.
+    pub(super) fn plain(draw: &'p PreparedDraw<'p>, pass: &Pass<'_>) -> Self {
+        let mut state = draw.state.clone();
+        state.color_mask = pass.surface.format.written(state.color_mask);
         Self {
             draw,
-            state: draw.state.clone(),
+            state,
             show: None,
             format: COLOR_FORMAT,
         }
@@ -545,49 +551,11 @@ pub(super) fn pass_depth(device: &Device, pass: &Pass<'_>) -> wgpu::TextureForma
 
 /// What a pass is cleared to: as eight bits hold it, so that rounding is not left to the device.
 pub(super) fn clear_bytes(pass: &Pass<'_>) -> [f64; 4] {
-    clear_color(pass.clear).map(|byte| f64::from(byte) / 255.0)
+    (pass.surface.stored().color).map(|byte| f64::from(byte) / 255.0)
 }
 
 /// A picture of the bytes that came back.
 pub(super) fn image([width, height]: [u32; 2], bytes: Vec<u8>) -> Result<RgbaImage, GpuError> {
     RgbaImage::from_raw(width, height, bytes)
         .ok_or_else(|| GpuError::Device("a picture came back incomplete".into()))
-}
-
-impl Ready {
-    /// The same with one primitive only; none if there is no such primitive.
-    pub(super) fn primitive(mut self, topology: Topology, number: usize) -> Option<Self> {
-        let number = u32::try_from(number).ok()?;
-        let (part, first, count) = match topology {
-            Topology::PointList => (&mut self.instances, number, 1),
-            Topology::LineList => (&mut self.corners, number.checked_mul(2)?, 2),
-            Topology::LineStrip => (&mut self.corners, number, 2),
-            // Strips and fans are drawn as lists.
-            Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
-                (&mut self.corners, number.checked_mul(3)?, 3)
-            }
-        };
-        let end = first.checked_add(count).filter(|end| *end <= part.end)?;
-        *part = first..end;
-        Some(self)
-    }
-
-    pub(super) fn encode(&self, commands: &mut wgpu::RenderPass<'_>) {
-        commands.set_pipeline(&self.pipeline);
-        for (number, group) in (0..).zip(&self.groups) {
-            commands.set_bind_group(number, group, &[]);
-        }
-        for (slot, buffer) in (0..).zip(&self.vertices) {
-            commands.set_vertex_buffer(slot, buffer.slice(..));
-        }
-        commands.set_stencil_reference(self.stencil);
-        let (corners, instances) = (self.corners.clone(), self.instances.clone());
-        match &self.indices {
-            Some(buffer) => {
-                commands.set_index_buffer(buffer.slice(..), wgpu::IndexFormat::Uint32);
-                commands.draw_indexed(corners, 0, instances);
-            }
-            None => commands.draw(corners, instances),
-        }
-    }
 }

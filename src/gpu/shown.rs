@@ -4,8 +4,9 @@
 use image::{Rgba, RgbaImage};
 
 use super::picture::{COLOR_FORMAT, Depth, Picture, floats};
+use super::ready::Ready;
 use super::registers::BARE;
-use super::renderer::{Frame, Planned, Ready, Steps, clear_bytes, image, pass_depth};
+use super::renderer::{Frame, Planned, Steps, clear_bytes, image, pass_depth};
 use super::{Device, GpuError};
 use crate::raster::{Mark, MarkSet, RegisterPicture, StencilOp};
 use crate::scene::{Pass, Show};
@@ -46,7 +47,9 @@ impl Frame<'_, '_> {
             instructions: register.instructions,
             pixels,
         };
-        let mut planned: Vec<_> = pass.draws.iter().map(Planned::plain).collect();
+        let mut planned: Vec<_> = (pass.draws.iter())
+            .map(|draw| Planned::plain(draw, pass))
+            .collect();
         let state = Show::state(&draw.state);
         let registers = Planned {
             draw,
@@ -78,7 +81,9 @@ impl Frame<'_, '_> {
             return Ok((RgbaImage::new(width, height), MarkSet::default()));
         };
 
-        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Kept);
+        let holds = pass.surface.stored();
+        let picture = Picture::new(device, pass.size, COLOR_FORMAT, depth, Depth::Kept)
+            .clearing_to(holds.depth, holds.stencil);
         let mut encoder = device.device.create_command_encoder(&Default::default());
         let mut commands = picture.begin(&mut encoder, Some(clear_bytes(pass)));
         (before.iter().flatten()).for_each(|draw| draw.encode(&mut commands));

@@ -20,8 +20,8 @@ pub struct FixedState {
 
 /// Maps render states. `points`: what is drawn are points as quads (see [`crate::wgsl::Points`]), strips without culling.
 ///
-/// The steps of `D3DRS_ZBIAS`, 1/65535 of the depth range in Direct3D, become steps of 2⁻¹⁶ at depths of 0.5 and more;
-/// WebGPU makes them smaller nearer to the eye, with the precision of a float depth buffer.
+/// `D3DRS_ZBIAS` is not among them: its steps of 1/65535 come in with the translation
+/// ([`Options::mapped_depth`](crate::wgsl::Options::mapped_depth)), because those of WebGPU become smaller near the eye.
 ///
 /// # Errors
 /// The name of a state that WebGPU cannot express: a fill mode of `point`, or of `wireframe` unless `wireframe` says
@@ -44,9 +44,8 @@ pub fn fixed_state(
         primitive: wgpu::PrimitiveState {
             topology: match topology {
                 Topology::PointList => wgpu::PrimitiveTopology::TriangleStrip,
-                Topology::LineList => wgpu::PrimitiveTopology::LineList,
-                Topology::LineStrip => wgpu::PrimitiveTopology::LineStrip,
                 // Strips and fans are drawn as lists, see `primitive_indices`.
+                Topology::LineList | Topology::LineStrip => wgpu::PrimitiveTopology::LineList,
                 Topology::TriangleList | Topology::TriangleStrip | Topology::TriangleFan => {
                     wgpu::PrimitiveTopology::TriangleList
                 }
@@ -61,12 +60,7 @@ pub fn fixed_state(
             polygon_mode,
             ..Default::default()
         },
-        depth_stencil: depth_stencil(
-            &state.depth,
-            &state.stencil,
-            depth_format,
-            !points && !lines,
-        ),
+        depth_stencil: depth_stencil(&state.depth, &state.stencil, depth_format),
         blend: state.blend.enable.then(|| blend(&state.blend)),
         write_mask: write_mask(state.color_mask),
     })
@@ -102,7 +96,6 @@ fn depth_stencil(
     depth: &DepthState,
     stencil: &StencilState,
     format: wgpu::TextureFormat,
-    biased: bool,
 ) -> wgpu::DepthStencilState {
     let face = if stencil.enable {
         wgpu::StencilFaceState {
@@ -113,12 +106,6 @@ fn depth_stencil(
         }
     } else {
         wgpu::StencilFaceState::IGNORE
-    };
-    let bias = if biased && depth.enable {
-        // 256 units of 2⁻²⁴ towards the eye.
-        -256 * i32::from(depth.bias)
-    } else {
-        0
     };
     wgpu::DepthStencilState {
         format,
@@ -134,10 +121,7 @@ fn depth_stencil(
             read_mask: stencil.mask.into(),
             write_mask: stencil.write_mask.into(),
         },
-        bias: wgpu::DepthBiasState {
-            constant: bias,
-            ..Default::default()
-        },
+        bias: wgpu::DepthBiasState::default(),
     }
 }
 

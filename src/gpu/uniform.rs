@@ -94,6 +94,7 @@ impl Uniforms<'_> {
             Field::Border(number) => stage(number).border.to_vec(),
             Field::LodBias(number) => vec![stage(number).lod_bias],
             Field::AlphaReference => vec![f32::from(self.state.alpha_test.reference)],
+            Field::DepthMapping => self.state.depth_mapping().to_vec(),
             Field::FogColor => fog.color.map(|channel| channel.clamp(0.0, 1.0)).to_vec(),
             Field::FogDensity => vec![fog.density],
             Field::FogStart => vec![fog.start],

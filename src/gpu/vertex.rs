@@ -36,7 +36,6 @@ impl VertexLayout {
             let stream = attribute.map_or(Stream::Default, Stream::Mesh);
             let read = wgpu::VertexAttribute {
                 format: match stream.components() {
-                    2 => wgpu::VertexFormat::Float32x2,
                     3 => wgpu::VertexFormat::Float32x3,
                     _ => wgpu::VertexFormat::Float32x4,
                 },
@@ -129,30 +128,36 @@ impl Stream {
     }
 }
 
-/// The indices to draw with, if it takes any: those of the mesh for a triangle list; strips and fans become lists, in the
-/// order that Direct3D gives their corners, so that winding and flat colours are the same.
-pub fn primitive_indices(topology: Topology, mesh: &Mesh) -> Option<Vec<u32>> {
-    let triangles = (mesh.vertex_count() as u32).saturating_sub(2);
-    match topology {
-        Topology::PointList | Topology::LineList | Topology::LineStrip => None,
-        Topology::TriangleList => Some(mesh.indices().to_vec()),
-        Topology::TriangleStrip => Some(
-            (0..triangles)
-                .flat_map(|i| match i % 2 {
-                    0 => [i, i + 1, i + 2],
-                    _ => [i, i + 2, i + 1],
-                })
-                .collect(),
-        ),
-        Topology::TriangleFan => Some((0..triangles).flat_map(|i| [i + 1, i + 2, 0]).collect()),
-    }
+/// The indices to draw with, if it takes any. `row` are those of the draw, without which the `count` vertices are drawn as
+/// they come; strips and fans become lists, in the order that Direct3D gives their corners, so that winding and flat colours
+/// are the same.
+pub fn primitive_indices(topology: Topology, row: Option<&[u32]>, count: u32) -> Option<Vec<u32>> {
+    let length = row.map_or(count, |row| row.len() as u32);
+    let triangles = 0..length.saturating_sub(2);
+    let list: Vec<u32> = match topology {
+        Topology::PointList => return None,
+        Topology::LineList | Topology::TriangleList => return row.map(<[u32]>::to_vec),
+        Topology::LineStrip => (0..length.saturating_sub(1))
+            .flat_map(|i| [i, i + 1])
+            .collect(),
+        Topology::TriangleStrip => triangles
+            .flat_map(|i| match i % 2 {
+                0 => [i, i + 1, i + 2],
+                _ => [i, i + 2, i + 1],
+            })
+            .collect(),
+        Topology::TriangleFan => triangles.flat_map(|i| [i + 1, i + 2, 0]).collect(),
+    };
+    let Some(row) = row else {
+        return Some(list);
+    };
+    let vertex = |i: u32| row.get(i as usize).copied();
+    Some(list.into_iter().filter_map(vertex).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::MeshData;
-    use glam::Vec3;
 
     fn input(register: u32) -> VertexInput {
         VertexInput {
@@ -175,7 +180,7 @@ mod tests {
         assert_eq!(streams, [position, texcoord, Stream::Default]);
         let buffers = layout.buffers();
         let strides: Vec<_> = buffers.iter().map(|buffer| buffer.array_stride).collect();
-        assert_eq!(strides, [12, 8, 0]);
+        assert_eq!(strides, [12, 16, 0]);
         let locations: Vec<_> = (buffers[0].attributes.iter())
             .map(|attribute| attribute.shader_location)
             .collect();
@@ -184,17 +189,20 @@ mod tests {
 
     #[test]
     fn strips_and_fans_keep_direct3ds_order() {
-        let mesh = Mesh::new(MeshData {
-            positions: (0..5)
-                .map(|i| Vec3::new(i as f32, (i * i) as f32, 0.0))
-                .collect(),
-            ..MeshData::default()
-        })
-        .unwrap();
-        let strip = primitive_indices(Topology::TriangleStrip, &mesh).unwrap();
+        let strip = primitive_indices(Topology::TriangleStrip, None, 5).unwrap();
         assert_eq!(strip, [0, 1, 2, 1, 3, 2, 2, 3, 4]);
-        let fan = primitive_indices(Topology::TriangleFan, &mesh).unwrap();
+        let fan = primitive_indices(Topology::TriangleFan, None, 5).unwrap();
         assert_eq!(fan, [1, 2, 0, 2, 3, 0, 3, 4, 0]);
-        assert_eq!(primitive_indices(Topology::LineStrip, &mesh), None);
+        let line = primitive_indices(Topology::LineStrip, None, 3).unwrap();
+        assert_eq!(line, [0, 1, 1, 2]);
+        assert_eq!(primitive_indices(Topology::LineList, None, 5), None);
+        // The same through indices: vertices 7, 5, 6, 4.
+        let row = Some([7, 5, 6, 4].as_slice());
+        let strip = primitive_indices(Topology::TriangleStrip, row, 8).unwrap();
+        assert_eq!(strip, [7, 5, 6, 5, 4, 6]);
+        let fan = primitive_indices(Topology::TriangleFan, row, 8).unwrap();
+        assert_eq!(fan, [5, 6, 7, 6, 4, 7]);
+        let line = primitive_indices(Topology::LineStrip, row, 8).unwrap();
+        assert_eq!(line, [7, 5, 5, 6, 6, 4]);
     }
 }

@@ -8,6 +8,7 @@
 //! - texture coordinates start at the top left, u grows to the right and v downwards, so that `tangent × bitangent = normal`
 //!   wherever the picture is not mirrored.
 
+mod attribute;
 mod chest;
 mod frame;
 #[cfg(feature = "scene")]
@@ -19,11 +20,12 @@ mod window;
 #[cfg(test)]
 mod tests;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
-use std::str::FromStr;
 
 use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 
+pub use attribute::{Attribute, UnknownAttribute};
 pub use chest::{Chest, ChestRegion};
 #[cfg(feature = "scene")]
 pub use obj::{MAX_OBJ_BYTES, ObjOptions};
@@ -146,85 +148,6 @@ impl fmt::Display for MeshError {
 
 impl std::error::Error for MeshError {}
 
-/// What a vertex stream can be fed from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Attribute {
-    /// Position in object space, 3 components.
-    Position,
-    /// Unit normal, pointing to the front, 3 components.
-    Normal,
-    /// Unit direction in which u grows, 3 components.
-    Tangent,
-    /// Unit direction in which v grows, 3 components.
-    Bitangent,
-    /// Texture coordinate, (0,0) at the top left, 2 components.
-    Texcoord,
-    /// Colour, red, green, blue and alpha, 4 components.
-    Color,
-}
-
-impl Attribute {
-    /// Every attribute with the name that scene files use.
-    pub const ALL: [(Self, &'static str); 6] = [
-        (Self::Position, "position"),
-        (Self::Normal, "normal"),
-        (Self::Tangent, "tangent"),
-        (Self::Bitangent, "bitangent"),
-        (Self::Texcoord, "texcoord"),
-        (Self::Color, "color"),
-    ];
-
-    /// How many components the mesh stores; a vertex register fills up the rest from (0, 0, 0, 1).
-    pub fn components(self) -> usize {
-        match self {
-            Self::Position | Self::Normal | Self::Tangent | Self::Bitangent => 3,
-            Self::Texcoord => 2,
-            Self::Color => 4,
-        }
-    }
-}
-
-impl fmt::Display for Attribute {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = Self::ALL
-            .iter()
-            .find(|(a, _)| a == self)
-            .map_or("", |(_, n)| n);
-        f.pad(name)
-    }
-}
-
-/// The text is not the name of an [`Attribute`].
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UnknownAttribute(String);
-
-impl fmt::Display for UnknownAttribute {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names: Vec<&str> = Attribute::ALL.iter().map(|(_, n)| *n).collect();
-        write!(
-            f,
-            "`{}` is no mesh attribute; there are {}",
-            self.0,
-            names.join(", ")
-        )
-    }
-}
-
-impl std::error::Error for UnknownAttribute {}
-
-impl FromStr for Attribute {
-    type Err = UnknownAttribute;
-
-    /// Reads a lower-case name of [`Attribute::ALL`].
-    fn from_str(text: &str) -> Result<Self, UnknownAttribute> {
-        Self::ALL
-            .iter()
-            .find(|(_, name)| *name == text)
-            .map(|(attribute, _)| *attribute)
-            .ok_or_else(|| UnknownAttribute(text.to_owned()))
-    }
-}
-
 /// The raw lists from which [`Mesh::new`] makes a mesh. All but `positions` and `indices` may be left empty.
 #[derive(Debug, Clone, Default)]
 pub struct MeshData {
@@ -240,6 +163,9 @@ pub struct MeshData {
     pub texcoords: Vec<Vec2>,
     /// Empty (all white), or one a vertex.
     pub colors: Vec<Vec4>,
+    /// The specular colour and coordinate sets 1 to 7, as vertex registers hold them, each empty or one a vertex; of
+    /// [`Attribute::Texcoord`] what goes beyond `texcoords`: of its values only the third and fourth component count.
+    pub more: BTreeMap<Attribute, Vec<Vec4>>,
     /// Three a triangle, clockwise seen from the front.
     pub indices: Vec<u32>,
 }
@@ -254,6 +180,7 @@ pub struct Mesh {
     bitangents: Vec<Vec3>,
     texcoords: Vec<Vec2>,
     colors: Vec<Vec4>,
+    more: BTreeMap<Attribute, Vec<Vec4>>,
     indices: Vec<u32>,
 }
 
@@ -275,6 +202,7 @@ impl Mesh {
             bitangents,
             mut texcoords,
             mut colors,
+            mut more,
             indices,
         } = data;
         let count = positions.len();
@@ -306,6 +234,10 @@ impl Mesh {
         check(Attribute::Normal, &normals, count, |n| n.is_finite())?;
         check(Attribute::Texcoord, &texcoords, count, |t| t.is_finite())?;
         check(Attribute::Color, &colors, count, |c| c.is_finite())?;
+        more.retain(|attribute, values| attribute.is_further() && !values.is_empty());
+        for (attribute, values) in &more {
+            check(*attribute, values, count, |v| v.is_finite())?;
+        }
         frame::complete_normals(&positions, &indices, &mut normals);
         let (tangents, bitangents) = if tangents.is_empty() {
             frame::from_texcoords(&positions, &normals, &texcoords, &indices)
@@ -323,6 +255,7 @@ impl Mesh {
             bitangents,
             texcoords,
             colors,
+            more,
             indices,
         })
     }
@@ -380,12 +313,22 @@ impl Mesh {
             Attribute::Normal => self.normals.get(vertex).map(|n| n.extend(1.0)),
             Attribute::Tangent => self.tangents.get(vertex).map(|t| t.extend(1.0)),
             Attribute::Bitangent => self.bitangents.get(vertex).map(|b| b.extend(1.0)),
-            Attribute::Texcoord => self
-                .texcoords
-                .get(vertex)
-                .map(|t| Vec4::new(t.x, t.y, 0.0, 1.0)),
+            Attribute::Texcoord => self.texcoords.get(vertex).map(|t| {
+                let rest = self.further(attribute, vertex).unwrap_or(Vec4::W);
+                Vec4::new(t.x, t.y, rest.z, rest.w)
+            }),
             Attribute::Color => self.colors.get(vertex).copied(),
+            Attribute::Specular => self
+                .further(attribute, vertex)
+                .or_else(|| self.colors.get(vertex).map(|_| Vec4::ZERO)),
+            _ => self
+                .further(attribute, vertex)
+                .or_else(|| self.value(Attribute::Texcoord, vertex)),
         }
+    }
+
+    fn further(&self, attribute: Attribute, vertex: usize) -> Option<Vec4> {
+        self.more.get(&attribute)?.get(vertex).copied()
     }
 
     /// [`Mesh::value`] of every vertex, in order.
@@ -426,6 +369,7 @@ impl Mesh {
             bitangents: self.bitangents.iter().map(|b| linear * *b).collect(),
             texcoords: self.texcoords.clone(),
             colors: self.colors.clone(),
+            more: self.more.clone(),
             indices,
         })
     }
@@ -492,8 +436,14 @@ impl Mesh {
             bitangents: Vec::new(),
             texcoords: Vec::new(),
             colors: Vec::new(),
+            more: BTreeMap::new(),
             indices: Vec::new(),
         };
+        let parts: Vec<&Self> = parts.into_iter().collect();
+        let further: BTreeSet<Attribute> = parts
+            .iter()
+            .flat_map(|part| part.more.keys().copied())
+            .collect();
         for part in parts {
             let base = whole.positions.len();
             check_size(
@@ -508,6 +458,10 @@ impl Mesh {
             whole.bitangents.extend_from_slice(&part.bitangents);
             whole.texcoords.extend_from_slice(&part.texcoords);
             whole.colors.extend_from_slice(&part.colors);
+            for attribute in &further {
+                let values = whole.more.entry(*attribute).or_default();
+                values.extend(part.stream(*attribute));
+            }
             whole.indices.extend(part.indices.iter().map(|i| i + base));
         }
         Ok(whole)

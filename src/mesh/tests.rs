@@ -571,7 +571,8 @@ fn attribute_names() {
     let message = "Normal".parse::<Attribute>().unwrap_err().to_string();
     assert_eq!(
         message,
-        "`Normal` is no mesh attribute; there are position, normal, tangent, bitangent, texcoord, color"
+        "`Normal` is no mesh attribute; there are position, normal, tangent, bitangent, texcoord, color, specular, texcoord1, texcoord2, texcoord3, \
+         texcoord4, texcoord5, texcoord6, texcoord7"
     );
 }
 

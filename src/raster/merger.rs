@@ -308,9 +308,8 @@ fn put(
         });
     }
     // Without an alpha channel there is a constant 1, which nothing changes.
-    let writes = |channel: usize| {
-        state.color_mask.writes(channel) && !(channel == 3 && format == ColorFormat::X8R8G8B8)
-    };
+    let mask_of_target = format.written(state.color_mask);
+    let writes = |channel: usize| mask_of_target.writes(channel);
     let whole = (0..4).all(writes);
     for (i, at) in pixels.into_iter().enumerate() {
         if mask >> i & 1 == 0 {

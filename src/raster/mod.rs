@@ -52,9 +52,9 @@ pub use replay::{LonePixel, LoneTarget, Merged, merge_lone};
 pub use state::{
     AlphaTest, BlendFactor, BlendOp, BlendState, ColorMask, Compare, CullMode, DepthState,
     FillMode, FogDistance, FogMode, FogState, PointState, RenderState, ShadeMode, StencilOp,
-    StencilState, Viewport,
+    StencilState, Viewport, ViewportState,
 };
-pub use target::{ColorFormat, Target, TargetTooLarge, TooManyPlanes};
+pub use target::{ColorFormat, Surface, Target, TargetTooLarge, TooManyPlanes};
 pub use tiles::{Statistics, draw};
 
 /// One vertex as the vertex shader left it. Colours and fog are taken into 0 to 1 here, not by the shader.

@@ -1,11 +1,11 @@
 //! One pixel of a target on its own: for a debugger one that is drawn again, for tests of shaders one without a primitive.
 
 use super::cover::Fragment;
-use super::merger::{DepthTiming, QuadColor, blend, fog, merge, to_byte};
+use super::merger::{DepthTiming, QuadColor, blend, fog, merge};
 use super::pixel::{LANES, PixelBatch, PixelResult, PixelShader};
 use super::record::{Fate, MergeRecord, Nobody, Recorder, Stored};
 use super::state::RenderState;
-use super::target::{ColorFormat, TILE, Target, TargetTooLarge};
+use super::target::{ColorFormat, Surface, TILE, Target, TargetTooLarge};
 use super::unit;
 
 /// One pixel of a target: colour, depth and stencil. What [`cover`](super::cover()) finds at it goes in, in order.
@@ -121,23 +121,21 @@ pub struct Merged {
     pub fate: Fate,
 }
 
-/// Takes one pixel through fog, alpha test, depth and stencil test, blending and the colour write mask, into a target
-/// with alpha whose colour is `clear` (taken into 0 to 1), whose depth is 1 and whose stencil value is 0.
+/// Takes one pixel through fog, alpha test, depth and stencil test, blending and the colour write mask, into a target that
+/// holds `surface`.
 ///
 /// # Errors
 /// [`TargetTooLarge`], if the one pixel of the target should be too much.
 pub fn merge_lone(
     state: &RenderState,
     pixel: &LonePixel,
-    clear: [f32; 4],
+    surface: &Surface,
 ) -> Result<Merged, TargetTooLarge> {
-    let clear = clear.map(unit);
-    let holds = Stored {
-        color: clear.map(to_byte),
-        depth: 1.0,
-        stencil: 0,
-    };
-    let mut target = LoneTarget::new((0, 0), ColorFormat::A8R8G8B8, holds)?;
+    let mut clear = surface.color.map(unit);
+    if surface.format == ColorFormat::X8R8G8B8 {
+        clear[3] = 1.0;
+    }
+    let mut target = LoneTarget::new((0, 0), surface.format, surface.stored())?;
     let mut batch = PixelBatch::empty();
     batch.place(0, 0, 0, 1, &[pixel.z; 4]);
     batch.quads = 1;
@@ -158,7 +156,7 @@ pub fn merge_lone(
             color = blend(&state.blend, &color, &clear.map(|channel| [channel; 4]));
         }
         for (channel, value) in exact.iter_mut().enumerate() {
-            if state.color_mask.writes(channel) {
+            if (surface.format.written(state.color_mask)).writes(channel) {
                 *value = color[channel][0];
             }
         }

@@ -7,14 +7,11 @@ use super::clip::{ClipVertex, Clipper, GUARD, SHARES};
 use super::cover::ScreenPosition;
 use super::points_lines;
 use super::scan::{Bounds, Edge, Shape};
-use super::state::{CullMode, FillMode, Viewport};
+use super::state::{CullMode, DEPTH_BIAS_STEP, FillMode, Viewport};
 use super::{DrawCall, DrawError, Topology, Vertex};
 
 /// Subpixels of a pixel.
 pub(super) const SUBPIXELS: i64 = 256;
-
-/// One step of `D3DRS_ZBIAS`.
-const DEPTH_BIAS_STEP: f64 = 1.0 / 65535.0;
 
 /// A linear function of the pixel position.
 #[derive(Debug, Clone, Copy, PartialEq)]

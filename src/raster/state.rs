@@ -397,6 +397,71 @@ pub struct RenderState {
     pub point: PointState,
     /// User clip planes that are on: what has a dot product with the clip-space position of at least 0 is kept.
     pub clip_planes: [Option<Vec4>; 6],
+    /// The part of the target that is drawn into, and its depths.
+    pub viewport: ViewportState,
+}
+
+impl RenderState {
+    /// What the depth of a position, its z over its w, is multiplied by, and what is added then: the depths of the viewport
+    /// and the steps of the bias. The result is taken into 0 to 1. A depth that a shader sets knows neither.
+    pub fn depth_mapping(&self) -> [f32; 2] {
+        let [min_z, max_z] = [self.viewport.min_z, self.viewport.max_z].map(super::unit);
+        let bias = f64::from(self.depth.bias) * DEPTH_BIAS_STEP;
+        [max_z - min_z, (f64::from(min_z) - bias) as f32]
+    }
+
+    /// The depth at a position, 0 to 1, from its z over its w, which is taken into 0 to 1 first.
+    pub fn depth_at(&self, z: f32) -> f32 {
+        let [scale, offset] = self.depth_mapping();
+        super::unit(super::unit(z) * scale + offset)
+    }
+}
+
+/// One step of `D3DRS_ZBIAS`.
+pub(super) const DEPTH_BIAS_STEP: f64 = 1.0 / 65535.0;
+
+/// `D3DVIEWPORT8` as a draw has it, for targets of any size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewportState {
+    /// Left edge in pixels.
+    pub x: u32,
+    /// Upper edge in pixels.
+    pub y: u32,
+    /// Width in pixels; `None`: up to the right edge of the target.
+    pub width: Option<u32>,
+    /// Height in pixels; `None`: down to the lower edge of the target.
+    pub height: Option<u32>,
+    /// The depth of z = 0, taken into 0 to 1.
+    pub min_z: f32,
+    /// The depth of z = w, taken into 0 to 1. It may be smaller than the other.
+    pub max_z: f32,
+}
+
+impl Default for ViewportState {
+    fn default() -> Self {
+        Self {
+            x: 0,
+            y: 0,
+            width: None,
+            height: None,
+            min_z: 0.0,
+            max_z: 1.0,
+        }
+    }
+}
+
+impl ViewportState {
+    /// The viewport on a target of this size. What of it lies outside of the target is not drawn.
+    pub fn on(&self, [width, height]: [u32; 2]) -> Viewport {
+        Viewport {
+            x: self.x,
+            y: self.y,
+            width: self.width.unwrap_or(width.saturating_sub(self.x)),
+            height: self.height.unwrap_or(height.saturating_sub(self.y)),
+            min_z: self.min_z,
+            max_z: self.max_z,
+        }
+    }
 }
 
 /// The part of the target that clip space is mapped to, in pixels.
@@ -427,6 +492,11 @@ impl Viewport {
             min_z: 0.0,
             max_z: 1.0,
         }
+    }
+
+    /// Left, top, width and height.
+    pub fn rectangle(&self) -> [u32; 4] {
+        [self.x, self.y, self.width, self.height]
     }
 }
 

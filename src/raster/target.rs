@@ -6,18 +6,79 @@ use std::fmt;
 
 use image::RgbaImage;
 
+use super::names::named;
+use super::record::Stored;
+use super::state::ColorMask;
+
 /// The side of a tile in pixels. Even, so that no 2×2 quad lies in two tiles.
 pub(super) const TILE: u32 = 64;
 const TILE_PIXELS: usize = (TILE * TILE) as usize;
 
-/// What a colour target stores.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ColorFormat {
-    /// Colour and alpha.
-    #[default]
-    A8R8G8B8,
-    /// Colour only: the alpha reads 1 and cannot be written.
-    X8R8G8B8,
+named! {
+    /// `D3DFORMAT`: what a colour target stores.
+    #[derive(Default)]
+    ColorFormat, "format of a target" {
+        /// Colour and alpha.
+        #[default]
+        A8R8G8B8 = 21 "a8r8g8b8",
+        /// Colour only: the alpha reads 1 and cannot be written.
+        X8R8G8B8 = 22 "x8r8g8b8",
+    }
+}
+
+impl ColorFormat {
+    /// A colour as a target of this format holds it.
+    pub fn held(self, color: [u8; 4]) -> [u8; 4] {
+        match self {
+            Self::A8R8G8B8 => color,
+            Self::X8R8G8B8 => [color[0], color[1], color[2], 255],
+        }
+    }
+
+    /// The channels that are written of those of a mask.
+    pub fn written(self, mask: ColorMask) -> ColorMask {
+        match self {
+            Self::A8R8G8B8 => mask,
+            Self::X8R8G8B8 => ColorMask::from_bits(mask.bits() & 0b111),
+        }
+    }
+}
+
+/// What a target holds before anything is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// What the colour stores.
+    pub format: ColorFormat,
+    /// Red, green, blue, alpha, taken into 0 to 1.
+    pub color: [f32; 4],
+    /// The depth, taken into 0 to 1.
+    pub depth: f32,
+    /// The stencil value.
+    pub stencil: u8,
+}
+
+impl Default for Surface {
+    /// Transparent black, depth 1, stencil 0.
+    fn default() -> Self {
+        Self {
+            format: ColorFormat::default(),
+            color: [0.0; 4],
+            depth: 1.0,
+            stencil: 0,
+        }
+    }
+}
+
+impl Surface {
+    /// The same as the buffers hold it: NaN is 0, halves between two steps of a colour go up.
+    pub fn stored(&self) -> Stored {
+        let bytes = (self.color).map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
+        Stored {
+            color: self.format.held(bytes),
+            depth: super::unit(self.depth),
+            stencil: self.stencil,
+        }
+    }
 }
 
 /// A target of a size that this crate refuses.
@@ -125,7 +186,7 @@ impl Target {
         {
             return Err(TargetTooLarge { width, height });
         }
-        let color = clear_color(format, [0; 4]);
+        let color = format.held([0; 4]);
         let tiles = (0..count)
             .map(|_| Tile {
                 color: vec![color; TILE_PIXELS].into_boxed_slice(),
@@ -140,6 +201,17 @@ impl Target {
             format,
             tiles,
         })
+    }
+
+    /// A target that holds this.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn cleared(width: u32, height: u32, surface: &Surface) -> Result<Self, TargetTooLarge> {
+        let mut target = Self::new(width, height, surface.format)?;
+        let holds = surface.stored();
+        target.clear(Some(holds.color), Some(holds.depth), Some(holds.stencil));
+        Ok(target)
     }
 
     /// The width in pixels.
@@ -162,7 +234,7 @@ impl Target {
     pub fn clear(&mut self, color: Option<[u8; 4]>, depth: Option<f32>, stencil: Option<u8>) {
         for tile in &mut self.tiles {
             if let Some(color) = color {
-                let color = clear_color(self.format, color);
+                let color = self.format.held(color);
                 tile.color.fill(color);
                 tile.more.iter_mut().for_each(|plane| plane.fill(color));
             }
@@ -285,13 +357,6 @@ impl Target {
     /// The tiles, row by row.
     pub(super) fn tiles_mut(&mut self) -> &mut [Tile] {
         &mut self.tiles
-    }
-}
-
-fn clear_color(format: ColorFormat, color: [u8; 4]) -> [u8; 4] {
-    match format {
-        ColorFormat::A8R8G8B8 => color,
-        ColorFormat::X8R8G8B8 => [color[0], color[1], color[2], 255],
     }
 }
 

@@ -9,7 +9,7 @@ use super::error::{Problems, advice, rules};
 use super::files::Files;
 use super::section::{At, Section};
 use super::shader::{self, Shader};
-use super::state::{bump, sampler, state};
+use super::state::{States, bump, sampler, state};
 use super::transform::transform;
 use crate::exec::STAGES;
 use crate::isa::register::VERTEX_CONSTANTS;
@@ -17,7 +17,7 @@ use crate::isa::{RegisterFile, Version};
 use crate::kernel::{Options, Projection, Slot};
 use crate::mesh::Attribute;
 use crate::program::{Program, Usage};
-use crate::raster::{RenderState, Topology};
+use crate::raster::{FogDistance, RenderState, Topology};
 use crate::semantics::BumpState;
 use crate::texture::{Sampler, Weights};
 
@@ -50,6 +50,8 @@ pub(super) struct Draw {
     pub(super) name: String,
     pub(super) mesh: usize,
     pub(super) topology: Topology,
+    /// Which vertices of the mesh, in which order, if the draw says so itself.
+    pub(super) indices: Option<At<Vec<u32>>>,
     pub(super) world: Mat4,
     pub(super) declaration: Declaration,
     pub(super) vertex: Shader,
@@ -58,6 +60,8 @@ pub(super) struct Draw {
     pub(super) pixel_constants: Vec<Constant>,
     pub(super) stages: [Stage; STAGES],
     pub(super) state: RenderState,
+    /// The distance of table fog, if the projection does not decide it.
+    pub(super) fog_distance: Option<FogDistance>,
 }
 
 /// One texture stage of a draw.
@@ -101,6 +105,11 @@ pub(super) fn read(
         .at::<String>("mesh", problems)
         .and_then(|name| find(known.meshes, "mesh", &name, problems));
     let topology = s.named("topology", Topology::TriangleList, problems);
+    let indices = s.at::<Vec<u32>>("indices", problems);
+    if let Some(At { span, .. }) = indices.as_ref().filter(|_| topology == Topology::PointList) {
+        let message = "points are drawn without `indices`, as Direct3D 8 draws them";
+        problems.error(&rules::VALUE, *span, message);
+    }
     let world = s.node("world").and_then(|node| transform(node, problems));
     let vertex = shader::read(s, &shader::VERTEX, files, problems);
     let pixel = shader::read(s, &shader::PIXEL, files, problems);
@@ -119,7 +128,10 @@ pub(super) fn read(
         .table("stages", problems)
         .map(|table| stages(table, known, files.weights(), problems))
         .unwrap_or_default();
-    let state = s
+    let States {
+        state,
+        fog_distance,
+    } = s
         .table("state", problems)
         .map(|table| state(table, problems))
         .unwrap_or_default();
@@ -162,6 +174,7 @@ pub(super) fn read(
         name,
         mesh: mesh?,
         topology,
+        indices,
         world: world.unwrap_or(Mat4::IDENTITY),
         declaration,
         vertex: vertex_shader,
@@ -170,6 +183,7 @@ pub(super) fn read(
         pixel_constants,
         stages,
         state,
+        fog_distance,
     })
 }
 
@@ -220,8 +234,9 @@ fn default_declaration(program: &Program) -> Declaration {
             (Usage::Normal, 0) => Some(Attribute::Normal),
             (Usage::Tangent, 0) => Some(Attribute::Tangent),
             (Usage::Binormal, 0) => Some(Attribute::Bitangent),
-            (Usage::TexCoord, _) => Some(Attribute::Texcoord),
+            (Usage::TexCoord, set) => Attribute::TEXCOORDS.get(set as usize).copied(),
             (Usage::Color, 0) => Some(Attribute::Color),
+            (Usage::Color, 1) => Some(Attribute::Specular),
             _ => None,
         };
         if let Some(place) = declaration.get_mut(dcl.register.index as usize) {

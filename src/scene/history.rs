@@ -4,8 +4,9 @@ use std::collections::VecDeque;
 
 use super::prepare::{Output, PreparedDraw};
 use super::render::{RenderError, Rendering};
-use super::rendered::clear_color;
-use crate::raster::{ColorFormat, DrawError, Fragment, LoneTarget, MergeRecord, Stored, cover};
+use crate::raster::{
+    ColorFormat, DrawError, Fragment, LoneTarget, MergeRecord, Stored, Surface, cover,
+};
 
 /// At most so many primitives are told of one pixel, the last ones.
 pub const MAX_EVENTS: usize = 4096;
@@ -17,6 +18,8 @@ pub struct PixelHistory {
     pub output: Output,
     /// Column and row.
     pub pixel: [u32; 2],
+    /// What its target stores.
+    pub format: ColorFormat,
     /// What the pixel held before the first draw.
     pub clear: Stored,
     /// How many primitives came before [`Self::events`], which holds at most [`MAX_EVENTS`].
@@ -52,13 +55,10 @@ impl Rendering<'_> {
     /// As [`Scene::render`](super::Scene::render).
     pub fn history(&self, output: Output, [x, y]: [u32; 2]) -> Result<PixelHistory, RenderError> {
         let pass = self.pass(output);
-        let clear = Stored {
-            color: pass.map_or([0; 4], |pass| clear_color(pass.clear)),
-            depth: 1.0,
-            stencil: 0,
-        };
+        let surface = pass.map_or_else(Surface::default, |pass| pass.surface);
+        let clear = surface.stored();
         let mut pixel =
-            LoneTarget::new((x, y), ColorFormat::A8R8G8B8, clear).map_err(RenderError::Size)?;
+            LoneTarget::new((x, y), surface.format, clear).map_err(RenderError::Size)?;
         let (mut events, mut left_out) = (VecDeque::new(), 0);
         for (number, draw) in pass.iter().flat_map(|pass| &pass.draws).enumerate() {
             let Some(shaded) = self.shaded(output, number) else {
@@ -85,6 +85,7 @@ impl Rendering<'_> {
         Ok(PixelHistory {
             output,
             pixel: [x, y],
+            format: surface.format,
             clear,
             left_out,
             events: events.into(),

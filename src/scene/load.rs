@@ -5,6 +5,7 @@ use super::error::{Problems, SceneError, rules};
 use super::files::Files;
 use super::resolve::Resolver;
 use super::section::{At, Node, Section};
+use super::state::surface;
 use super::target::{self, Target, draw_list};
 use super::texture::{self, Source};
 use super::transform::Camera;
@@ -99,7 +100,7 @@ fn read(bytes: &[u8], files: &mut Files<'_>, problems: &mut Problems) -> Option<
     let included = include::read(&mut root, files, problems);
     include::merge(&mut root, &included, problems);
     let size = size(&mut root, problems);
-    let clear = root.color_or("clear", [0.0, 0.0, 0.0, 1.0], problems);
+    let surface = surface(&mut root, [0.0, 0.0, 0.0, 1.0], problems);
     let time = root.or("time", 0.0, problems);
     let light_direction: [f32; 3] = root.array_or("light_direction", [0.0, -1.0, 0.0], problems);
     let camera = root
@@ -160,7 +161,7 @@ fn read(bytes: &[u8], files: &mut Files<'_>, problems: &mut Problems) -> Option<
         .collect();
     let mut scene = Scene {
         size: size?,
-        clear,
+        surface,
         time,
         light_direction: light_direction.into(),
         camera,
@@ -176,6 +177,7 @@ fn read(bytes: &[u8], files: &mut Files<'_>, problems: &mut Problems) -> Option<
     if !few_draws(&scene, whole, problems) {
         return None;
     }
+    check_indices(&scene, problems);
     let reads = |number: usize| scene.targets_read_by(&scene.targets[number].draws);
     scene.order = target::order(&scene.targets, reads, problems);
     scene.check_meanings(problems);
@@ -244,6 +246,20 @@ fn few_draws(scene: &Scene, whole: Span, problems: &mut Problems) -> bool {
         format!("a picture of this scene takes {count} draws; at most {MAX_DRAWS} are allowed");
     problems.error(&rules::LIMIT, whole, message);
     false
+}
+
+/// Reports indices of draws that name vertices which their meshes do not have.
+fn check_indices(scene: &Scene, problems: &mut Problems) {
+    for draw in &scene.draws {
+        let (Some(indices), Some(mesh)) = (&draw.indices, scene.meshes.get(draw.mesh)) else {
+            continue;
+        };
+        let count = mesh.vertex_count();
+        if let Some(index) = indices.value.iter().find(|index| **index as usize >= count) {
+            let message = format!("`indices` names vertex {index}; the mesh has {count}, from 0");
+            problems.error(&rules::CONTENT, indices.span, message);
+        }
+    }
 }
 
 /// Everything, unless something is missing.

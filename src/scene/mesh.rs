@@ -1,5 +1,7 @@
 //! `[meshes.NAME]`.
 
+use std::collections::BTreeMap;
+
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use serde::Deserialize;
 use toml::Spanned;
@@ -9,7 +11,7 @@ use super::error::{Problems, advice_from, rules};
 use super::files::Files;
 use super::section::{Node, Section};
 use super::transform::transform;
-use crate::mesh::{Mesh, MeshData, MeshError, ObjOptions, Shape};
+use crate::mesh::{Attribute, Mesh, MeshData, MeshError, ObjOptions, Shape};
 
 /// The keys of which a mesh has one: what it is made from.
 const SOURCES: [&str; 3] = ["shape", "obj", "positions"];
@@ -164,7 +166,14 @@ fn inline(section: &mut Section<'_>, problems: &mut Problems) -> Option<MeshData
     let normals = vectors(section, "normals", problems, Vec3::from_array);
     let tangents = vectors(section, "tangents", problems, Vec3::from_array);
     let bitangents = vectors(section, "bitangents", problems, Vec3::from_array);
-    let texcoords = vectors(section, "texcoords", problems, Vec2::from_array);
+    let (texcoords, mut more) = texcoords(section, problems);
+    let sets = Attribute::TEXCOORDS.into_iter().skip(1);
+    for (attribute, key) in sets.zip(FURTHER_SETS) {
+        let values = further(section, key, problems);
+        more.extend(values.map(|values| (attribute, values)));
+    }
+    let speculars = vectors(section, "speculars", problems, Vec4::from_array);
+    more.insert(Attribute::Specular, speculars);
     let colors = vectors(section, "colors", problems, Vec4::from_array);
     let indices: Option<Vec<u32>> = section.get("indices", problems);
     let whole = positions.len() - positions.len() % 3;
@@ -175,9 +184,59 @@ fn inline(section: &mut Section<'_>, problems: &mut Problems) -> Option<MeshData
         bitangents,
         texcoords,
         colors,
+        more,
         // Positions are bounded by the length of a scene file.
         indices: indices.unwrap_or_else(|| (0..whole as u32).collect()),
     })
+}
+
+/// The keys of coordinate sets 1 to 7.
+const FURTHER_SETS: [&str; 7] = [
+    "texcoords1",
+    "texcoords2",
+    "texcoords3",
+    "texcoords4",
+    "texcoords5",
+    "texcoords6",
+    "texcoords7",
+];
+
+/// Coordinate set 0: u and v, and all four where a vertex has more than two.
+fn texcoords(
+    section: &mut Section<'_>,
+    problems: &mut Problems,
+) -> (Vec<Vec2>, BTreeMap<Attribute, Vec<Vec4>>) {
+    let all = further(section, "texcoords", problems).unwrap_or_default();
+    let plain = all.iter().map(|set| Vec2::new(set.x, set.y)).collect();
+    let beyond = all.iter().any(|set| (set.z, set.w) != (0.0, 1.0));
+    let more = beyond.then_some((Attribute::Texcoord, all));
+    (plain, more.into_iter().collect())
+}
+
+/// A list of one to four numbers a vertex, filled up from (0, 0, 0, 1).
+fn further(
+    section: &mut Section<'_>,
+    key: &'static str,
+    problems: &mut Problems,
+) -> Option<Vec<Vec4>> {
+    let lists = section.at::<Vec<Spanned<Vec<f32>>>>(key, problems)?.value;
+    let mut values = Vec::with_capacity(lists.len());
+    for list in lists {
+        let (place, numbers) = (problems.span(list.span()), list.into_inner());
+        if !(1..=4).contains(&numbers.len()) {
+            let count = numbers.len();
+            let message = format!("`{key}`: there are {count} entries where one to four must be");
+            problems.error(&rules::VALUE, place, message);
+            // One is enough: the others are probably wrong in the same way.
+            return None;
+        }
+        let mut value = Vec4::W.to_array();
+        for (component, number) in value.iter_mut().zip(numbers) {
+            *component = number;
+        }
+        values.push(Vec4::from_array(value));
+    }
+    Some(values)
 }
 
 /// A list of vectors; empty if there is none.

@@ -48,9 +48,9 @@ pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
 pub use render::{
     DrawnTarget, Progress, RenderError, RenderOptions, Rendering, Show, TargetPicture,
 };
-pub use rendered::ShadedDraw;
 #[cfg(feature = "gpu")]
-pub(crate) use rendered::{Rendered, clear_color};
+pub(crate) use rendered::Rendered;
+pub use rendered::ShadedDraw;
 pub use resolve::{DirectoryResolver, MAX_FILE_BYTES, Resolver};
 pub use shader::Shader;
 pub use show::{ShowExpression, WrongShow};
@@ -71,7 +71,7 @@ pub struct LoadOptions {
 #[derive(Clone, Debug)]
 pub struct Scene {
     size: [u32; 2],
-    clear: [f32; 4],
+    surface: crate::raster::Surface,
     time: f32,
     light_direction: Vec3,
     camera: transform::Camera,

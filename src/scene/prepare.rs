@@ -9,7 +9,7 @@ use crate::diagnostic::Span;
 use crate::exec::{Environment, STAGES, bind_constants, overrides_definitions};
 use crate::kernel::Kernel;
 use crate::mesh::Mesh;
-use crate::raster::{FogDistance, RenderState, Topology};
+use crate::raster::{FogDistance, RenderState, Surface, Topology};
 use crate::semantics::BumpState;
 use crate::texture::Sampler;
 use glam::{Mat4, Vec4};
@@ -33,10 +33,10 @@ pub enum Output {
 pub struct Pass<'a> {
     /// Where they go.
     pub output: Output,
-    /// Its width and height in pixels. The viewport is all of it.
+    /// Its width and height in pixels.
     pub size: [u32; 2],
-    /// Its colour before the first draw, red, green, blue, alpha; depth is 1, stencil 0.
-    pub clear: [f32; 4],
+    /// Its format, and what it holds before the first draw.
+    pub surface: Surface,
     /// The draws in order.
     pub draws: Vec<PreparedDraw<'a>>,
 }
@@ -52,9 +52,11 @@ pub struct PreparedDraw<'a> {
     pub mesh: &'a Mesh,
     /// Which attribute feeds which register.
     pub declaration: &'a Declaration,
-    /// How vertices make up primitives. A triangle list takes the indices of the mesh, everything else its vertices in
-    /// order.
+    /// How vertices make up primitives.
     pub topology: Topology,
+    /// The indices that the draw itself gives. Without them a triangle list takes those of the mesh, everything else its
+    /// vertices in order.
+    pub own_indices: Option<&'a [u32]>,
     /// The vertex shader.
     pub vertex: &'a Shader,
     /// Its constant registers.
@@ -101,7 +103,8 @@ impl PreparedDraw<'_> {
 
     /// The vertices of the primitives in order; `None`: all, as they come.
     pub fn indices(&self) -> Option<&[u32]> {
-        (self.topology == Topology::TriangleList).then(|| self.mesh.indices())
+        let of_mesh = || (self.topology == Topology::TriangleList).then(|| self.mesh.indices());
+        self.own_indices.or_else(of_mesh)
     }
 }
 
@@ -132,7 +135,7 @@ impl Scene {
                         face,
                     },
                     size: target.size,
-                    clear: target.clear,
+                    surface: target.surface,
                     draws: self.prepare(&target.draws, view, target.size),
                 });
             }
@@ -140,7 +143,7 @@ impl Scene {
         passes.push(Pass {
             output: Output::Picture,
             size,
-            clear: self.clear,
+            surface: self.surface,
             draws: self.prepare(&self.picture, self.picture_matrices(size), size),
         });
         passes
@@ -163,7 +166,7 @@ impl Scene {
             .filter_map(|(number, draw)| {
                 let surroundings = self.surroundings(draw, view, size);
                 let mut state = draw.state.clone();
-                state.fog.distance = fog_distance(view.1);
+                state.fog.distance = (draw.fog_distance).unwrap_or_else(|| fog_distance(view.1));
                 let stages = std::array::from_fn(|i| PreparedStage {
                     texture: draw.stages[i].texture,
                     sampler: draw.stages[i].sampler,
@@ -175,6 +178,7 @@ impl Scene {
                     mesh: self.meshes.get(draw.mesh)?,
                     declaration: &draw.declaration,
                     topology: draw.topology,
+                    own_indices: draw.indices.as_ref().map(|at| at.value.as_slice()),
                     vertex: &draw.vertex,
                     vertex_constants: bound(
                         &draw.vertex.kernel,

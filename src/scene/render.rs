@@ -6,10 +6,10 @@ use image::RgbaImage;
 
 use super::Scene;
 use super::prepare::{Output, Pass, PreparedDraw};
-use super::rendered::{Rendered, ShadedDraw, ShadedMeshes, clear_color};
+use super::rendered::{Rendered, ShadedDraw, ShadedMeshes};
 use crate::raster::{
-    ColorFormat, ColorMask, DrawError, MarkSet, PictureProgram, PixelShader, RegisterPicture,
-    RenderState, Target, TargetTooLarge, TooManyPlanes, draw,
+    ColorMask, DrawError, MarkSet, PictureProgram, PixelShader, RegisterPicture, RenderState,
+    Target, TargetTooLarge, TooManyPlanes, draw,
 };
 use crate::sheet::{self, Dressing, SheetTooLarge, Tile};
 use crate::texture::TextureError;
@@ -155,7 +155,7 @@ impl Scene {
         progress: &dyn Fn(Progress<'_>),
     ) -> Result<Rendering<'_>, RenderError> {
         let [width, height] = options.size.unwrap_or(self.size);
-        let picture = Target::new(width, height, ColorFormat::A8R8G8B8);
+        let picture = Target::cleared(width, height, &self.surface);
         let mut picture = picture.map_err(RenderError::Size)?;
         let passes = self.passes([width, height]);
         let shown = self.shown(options)?;
@@ -340,7 +340,7 @@ impl Renderer<'_, '_> {
         face: usize,
     ) -> Result<Target, RenderError> {
         let [width, height] = pass.size;
-        let target = Target::new(width, height, ColorFormat::A8R8G8B8);
+        let target = Target::cleared(width, height, &pass.surface);
         let mut target = target.map_err(RenderError::Size)?;
         self.pass(pass, None, &mut target)?;
         self.rendered.take_face(number, face, &target.to_image())?;
@@ -353,7 +353,6 @@ impl Renderer<'_, '_> {
         shown: Option<(usize, &[RegisterPicture])>,
         target: &mut Target,
     ) -> Result<(), RenderError> {
-        target.clear(Some(clear_color(pass.clear)), Some(1.0), Some(0));
         for (place, prepared) in pass.draws.iter().enumerate() {
             (self.progress)(Progress {
                 done: self.done,

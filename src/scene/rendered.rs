@@ -10,7 +10,7 @@ use super::prepare::{Pass, PreparedDraw};
 use super::render::RenderError;
 use super::{Scene, TextureSource};
 use crate::exec::{Environment, Stage};
-use crate::raster::{DrawCall, PixelProgram, RenderState, Vertex, Viewport, shade_vertices};
+use crate::raster::{DrawCall, PixelProgram, RenderState, Vertex, shade_vertices};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 
@@ -166,9 +166,9 @@ impl<'a> ShadedDraw<'a> {
     }
 
     /// The draw call onto a target of this size. `state`: that of the draw, or one in its place.
-    pub fn call<'c>(&'c self, state: &'c RenderState, [width, height]: [u32; 2]) -> DrawCall<'c> {
+    pub fn call<'c>(&'c self, state: &'c RenderState, size: [u32; 2]) -> DrawCall<'c> {
         DrawCall {
-            viewport: Viewport::full(width, height),
+            viewport: state.viewport.on(size),
             state,
             topology: self.draw.topology,
             vertices: &self.vertices,
@@ -219,9 +219,4 @@ impl ShadedMeshes {
         }
         Cow::Borrowed(mesh.get_or_init(|| vertices))
     }
-}
-
-/// A colour of 0 to 1 as eight bits hold it: NaN is 0, halves go up.
-pub(crate) fn clear_color(color: [f32; 4]) -> [u8; 4] {
-    color.map(|value| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
 }

@@ -6,14 +6,38 @@ use toml::de::DeValue;
 use super::error::{Problems, rules};
 use super::section::{At, Exactly, Section, parse_name};
 use crate::raster::{
-    AlphaTest, BlendState, ColorMask, DepthState, FogState, PointState, RenderState, StencilState,
+    AlphaTest, BlendState, ColorMask, DepthState, FogDistance, FogState, PointState, RenderState,
+    StencilState, Surface, Target, ViewportState,
 };
 use crate::semantics::BumpState;
 use crate::texture::{Filter, Sampler, Weights};
 
-/// Reads `[draw.state]`. The distance that table fog uses is not a state of the file: the projection decides it.
-pub(crate) fn state(mut section: Section<'_>, problems: &mut Problems) -> RenderState {
+/// Reads what a target holds before anything is drawn.
+pub(crate) fn surface(s: &mut Section<'_>, color: [f32; 4], problems: &mut Problems) -> Surface {
+    let default = Surface::default();
+    Surface {
+        format: s.named("format", default.format, problems),
+        color: s.color_or("clear", color, problems),
+        depth: s.ranged("clear_depth", 0.0..=1.0, default.depth, problems),
+        stencil: s.ranged("clear_stencil", 0..=0xff, default.stencil.into(), problems) as u8,
+    }
+}
+
+/// The render states of a draw.
+#[derive(Default)]
+pub(crate) struct States {
+    pub(crate) state: RenderState,
+    /// The distance of table fog, if it is set by hand; else the projection decides it.
+    pub(crate) fog_distance: Option<FogDistance>,
+}
+
+/// Reads `[draw.state]`.
+pub(crate) fn state(mut section: Section<'_>, problems: &mut Problems) -> States {
     let s = &mut section;
+    let (fog, fog_distance) = s
+        .table("fog", problems)
+        .map(|table| fog(table, problems))
+        .unwrap_or_default();
     let default = RenderState::default();
     let (depth, alpha, blend) = (
         DepthState::default(),
@@ -43,9 +67,7 @@ pub(crate) fn state(mut section: Section<'_>, problems: &mut Problems) -> Render
             op: s.named("blend_op", blend.op, problems),
         },
         color_mask: color_mask(s, problems),
-        fog: s
-            .table("fog", problems)
-            .map_or_else(FogState::default, |table| fog(table, problems)),
+        fog,
         stencil: s
             .table("stencil", problems)
             .map_or_else(StencilState::default, |table| stencil(table, problems)),
@@ -56,8 +78,37 @@ pub(crate) fn state(mut section: Section<'_>, problems: &mut Problems) -> Render
             sprite: s.or("point_sprite", point.sprite, problems),
         },
         clip_planes: clip_planes(s, problems),
+        viewport: s
+            .table("viewport", problems)
+            .map_or_else(ViewportState::default, |table| viewport(table, problems)),
     };
     section.finish(problems);
+    States {
+        state,
+        fog_distance,
+    }
+}
+
+/// `viewport`: a part of the target in pixels, and its depths.
+fn viewport(mut s: Section<'_>, problems: &mut Problems) -> ViewportState {
+    let default = ViewportState::default();
+    let whole = || 0..=i64::from(Target::MAX_SIDE);
+    let mut side = |key, s: &mut Section<'_>| {
+        let given = s.has(key);
+        let length = s.ranged(key, whole(), 0, problems) as u32;
+        given.then_some(length)
+    };
+    let [x, y] = ["x", "y"].map(|key| side(key, &mut s).unwrap_or_default());
+    let [width, height] = ["width", "height"].map(|key| side(key, &mut s));
+    let state = ViewportState {
+        x,
+        y,
+        width,
+        height,
+        min_z: s.ranged("min_z", 0.0..=1.0, default.min_z, problems),
+        max_z: s.ranged("max_z", 0.0..=1.0, default.max_z, problems),
+    };
+    s.finish(problems);
     state
 }
 
@@ -91,13 +142,14 @@ fn color_mask(section: &mut Section<'_>, problems: &mut Problems) -> ColorMask {
     ColorMask::from_bits(value)
 }
 
-fn fog(mut s: Section<'_>, problems: &mut Problems) -> FogState {
+fn fog(mut s: Section<'_>, problems: &mut Problems) -> (FogState, Option<FogDistance>) {
     let default = FogState::default();
+    let by_hand = s.has("distance");
     let state = FogState {
         enable: s.or("enable", true, problems),
         color: fog_color(&mut s, default.color, problems),
         table: s.named("table", default.table, problems),
-        distance: default.distance,
+        distance: s.named("distance", default.distance, problems),
         start: s.or("start", default.start, problems),
         end: s.or("end", default.end, problems),
         density: s.or("density", default.density, problems),
@@ -108,7 +160,7 @@ fn fog(mut s: Section<'_>, problems: &mut Problems) -> FogState {
         problems.warning(&rules::IDLE, span, message);
     }
     s.finish(problems);
-    state
+    (state, by_hand.then_some(state.distance))
 }
 
 /// Red, green and blue. The alpha of `D3DRS_FOGCOLOR`, which may stand behind them, has no effect.
@@ -128,15 +180,21 @@ fn stencil(mut s: Section<'_>, problems: &mut Problems) -> StencilState {
     let state = StencilState {
         enable: s.or("enable", true, problems),
         func: s.named("func", default.func, problems),
-        reference: s.or("ref", default.reference, problems),
-        mask: s.or("mask", default.mask, problems),
-        write_mask: s.or("write_mask", default.write_mask, problems),
+        reference: low_byte("ref", default.reference, &mut s, problems),
+        mask: low_byte("mask", default.mask, &mut s, problems),
+        write_mask: low_byte("write_mask", default.write_mask, &mut s, problems),
         fail: s.named("fail", default.fail, problems),
         depth_fail: s.named("z_fail", default.depth_fail, problems),
         pass: s.named("pass", default.pass, problems),
     };
     s.finish(problems);
     state
+}
+
+/// A state of 32 bits, of which those count that a stencil buffer has.
+fn low_byte(key: &'static str, default: u8, s: &mut Section<'_>, problems: &mut Problems) -> u8 {
+    let bits = s.ranged(key, 0..=i64::from(u32::MAX), default.into(), problems);
+    (bits & 0xff) as u8
 }
 
 fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Vec4>; 6] {
@@ -146,6 +204,14 @@ fn clip_planes(section: &mut Section<'_>, problems: &mut Problems) -> [Option<Ve
     };
     if value.len() > planes.len() {
         let message = format!("`clip_planes` has {} planes; there are six", value.len());
+        problems.error(&rules::VALUE, span, message);
+    }
+    if value
+        .as_flattened()
+        .iter()
+        .any(|number| !number.is_finite())
+    {
+        let message = "`clip_planes` holds an infinite number or one that is none";
         problems.error(&rules::VALUE, span, message);
     }
     for (plane, given) in planes.iter_mut().zip(value) {

@@ -8,8 +8,10 @@ use super::draw::{Names, find};
 use super::error::{Problems, rules};
 use super::files::Files;
 use super::section::{At, Exactly, Section};
+use super::state::surface;
 use super::transform::{Camera, cube_face, depth_range};
 use crate::diagnostic::Span;
+use crate::raster::Surface;
 
 /// The longest side of a render target that a texture shows, in pixels.
 pub const MAX_TARGET_SIDE: u32 = 4096;
@@ -48,7 +50,7 @@ pub(super) struct Target {
     pub(super) name: String,
     pub(super) span: Span,
     pub(super) size: [u32; 2],
-    pub(super) clear: [f32; 4],
+    pub(super) surface: Surface,
     pub(super) view: View,
     /// The draws by number, in order.
     pub(super) draws: Vec<usize>,
@@ -87,7 +89,7 @@ pub(super) fn read(
     let s = &mut section;
     let span = s.span;
     let kind = s.named("kind", Kind::Flat, problems);
-    let clear = s.color_or("clear", [0.0; 4], problems);
+    let surface = surface(s, [0.0; 4], problems);
     let mipmaps = s.or("mipmaps", false, problems);
     if !s.has("draws") {
         s.missing("`draws`", problems);
@@ -115,7 +117,7 @@ pub(super) fn read(
         name,
         span,
         size,
-        clear,
+        surface,
         view,
         draws: draws?,
         mipmaps,

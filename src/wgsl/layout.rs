@@ -27,6 +27,9 @@ pub enum Field {
     LodBias(u8),
     /// `alpha_reference`: `D3DRS_ALPHAREF` as a number from 0 to 255.
     AlphaReference,
+    /// `depth_mapping`: what the depth of the position is multiplied by, and what is added:
+    /// [`RenderState::depth_mapping`](crate::raster::RenderState::depth_mapping).
+    DepthMapping,
     /// `fog_color`: `D3DRS_FOGCOLOR`, each channel 0 to 1.
     FogColor,
     /// `fog_density`: `D3DRS_FOGDENSITY`.
@@ -66,6 +69,7 @@ impl Field {
             Self::Border(stage) => format!("border{stage}"),
             Self::LodBias(stage) => format!("lod_bias{stage}"),
             Self::AlphaReference => "alpha_reference".into(),
+            Self::DepthMapping => "depth_mapping".into(),
             Self::FogColor => "fog_color".into(),
             Self::FogDensity => "fog_density".into(),
             Self::FogStart => "fog_start".into(),
@@ -87,6 +91,7 @@ impl Field {
             Self::Border(_) => "D3DTSS_BORDERCOLOR",
             Self::LodBias(_) => "D3DTSS_MIPMAPLODBIAS",
             Self::AlphaReference => "D3DRS_ALPHAREF, 0 to 255",
+            Self::DepthMapping => "scale and offset: MinZ, MaxZ, D3DRS_ZBIAS",
             Self::FogColor => "D3DRS_FOGCOLOR",
             Self::FogDensity => "D3DRS_FOGDENSITY",
             Self::FogStart => "D3DRS_FOGSTART",
@@ -119,7 +124,7 @@ impl Block {
             Field::ClipPlanes => vectors(self.clip_planes),
             Field::Bump(_) | Field::Border(_) => ("vec4f".into(), 16, 16),
             Field::FogColor => ("vec3f".into(), 16, 12),
-            Field::Viewport | Field::Luminance(_) => ("vec2f".into(), 8, 8),
+            Field::Viewport | Field::Luminance(_) | Field::DepthMapping => ("vec2f".into(), 8, 8),
             Field::PointSize
             | Field::PointMin
             | Field::PointMax

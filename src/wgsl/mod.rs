@@ -23,7 +23,8 @@
 //!   addressing make it part of the uniform block. There its value is the caller's business, as is 0 for constants
 //!   that nobody set. The pixel stage clamps what comes from the block to −1…1; the caller need not.
 //! - *Viewport.* `vs.viewport` is its size in pixels; the half pixel between Direct3D 8's pixel centres and those of
-//!   WebGPU is added in clip space.
+//!   WebGPU is added in clip space. Its depths and `D3DRS_ZBIAS` come in with the pixel stage
+//!   ([`Options::mapped_depth`]): WebGPU has no steps of 1/65535, and its viewport would limit the depths that shaders set.
 //! - *Colours* are clamped at the vertex and in the pixel stage. The result is not clamped unless there is fog: a
 //!   `unorm` target does that.
 //! - *Tests.* `texkill`, user clip planes and the alpha test come behind all sampling, in one `discard`. Stencil, depth
@@ -146,7 +147,7 @@ pub fn translate(
     }
     sections.extend(varyings.structure());
     if let Some(pixel) = &pixel {
-        let writes_depth = pixel.stage.kernel.writes_depth();
+        let writes_depth = pixel.reflection.writes_depth;
         sections.extend(pixel::output_structure(writes_depth).map(String::from));
     }
     sections.extend(observed_variables(&parts, options));
@@ -251,7 +252,7 @@ impl<'a> Part<'a> {
                 .kernel
                 .written(crate::kernel::Slot::POINT_SIZE)
                 .is_empty(),
-            writes_depth: stage.kernel.writes_depth(),
+            writes_depth: kind == ShaderKind::Pixel && pixel::writes_depth(stage.kernel, options),
             discards,
         };
         let (text, block, helpers) = body.finish();

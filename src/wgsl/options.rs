@@ -20,6 +20,10 @@ pub struct Options {
     pub overridable_definitions: bool,
     /// Whether positions are moved by half a pixel, so that pixel centres lie where Direct3D 8 has them.
     pub half_pixel: bool,
+    /// Whether the depths of the viewport and the bias are not those of the default: then the depth that goes to the target
+    /// is worked out in the pixel stage, from a field of the uniform block, and the viewport of WebGPU keeps the depths 0 to 1.
+    /// A depth that the shader itself sets stays.
+    pub mapped_depth: bool,
     /// `D3DSHADE_FLAT`: the two colours come from the first vertex of a triangle.
     pub flat_shading: bool,
     /// What is drawn.
@@ -61,6 +65,7 @@ impl Options {
                 table: state.fog.table,
                 distance: state.fog.distance,
             }),
+            mapped_depth: state.depth_mapping() != [1.0, 0.0],
             alpha_test: state.alpha_test.enable.then_some(state.alpha_test.func),
             flat_shading: state.shade == ShadeMode::Flat,
             clip_planes: state.clip_planes.iter().flatten().count() as u8,
@@ -77,6 +82,7 @@ impl Default for Options {
             alpha_test: None,
             overridable_definitions: false,
             half_pixel: true,
+            mapped_depth: false,
             flat_shading: false,
             points: Points::None,
             clip_planes: 0,

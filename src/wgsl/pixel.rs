@@ -4,9 +4,15 @@ use super::body::Body;
 use super::expression::Expression;
 use super::helper::Helper;
 use super::layout::Field;
-use super::options::{Fog, ShownPixels};
+use super::options::{Fog, Options, ShownPixels};
 use super::varyings::Varyings;
+use crate::kernel::Kernel;
 use crate::raster::{Compare, FogDistance, FogMode};
+
+/// Whether the stage sets the depth: the shader does, or the viewport and the bias ask for it.
+pub(super) fn writes_depth(kernel: &Kernel, options: &Options) -> bool {
+    kernel.writes_depth() || options.mapped_depth
+}
 
 /// The structure of what the stage returns, if that is more than a colour.
 pub(super) fn output_structure(writes_depth: bool) -> Option<&'static str> {
@@ -21,11 +27,12 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     let mark = body.mark();
     body.observe();
     tests(body, varyings);
+    let depth = depth(body);
     let result = match body.shown() {
         Some(shown) => body.shown_content(shown.slot),
         None => {
             if let Some(fog) = body.options.fog {
-                apply_fog(body, fog);
+                apply_fog(body, fog, &depth.of_position);
             }
             "r0".into()
         }
@@ -33,11 +40,9 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
     if body.mark() > mark {
         body.insert_blank(mark);
     }
-    let depth = body.stage.kernel.writes_depth();
-    body.push(if depth {
-        format!("return PixelOutput({result}, depth);")
-    } else {
-        format!("return {result};")
+    body.push(match &depth.written {
+        Some(depth) => format!("return PixelOutput({result}, {depth});"),
+        None => format!("return {result};"),
     });
     let parameter = match varyings.reach_pixel() {
         true => "in: Varyings",
@@ -47,12 +52,44 @@ pub(super) fn entry(body: &mut Body<'_>, varyings: &Varyings) -> String {
         None => ("@fragment\n", "@location(0) "),
         Some(_) => ("", ""),
     };
-    let result = match depth {
-        true => "PixelOutput".to_string(),
-        false => format!("{place}vec4f"),
+    let result = match depth.written {
+        Some(_) => "PixelOutput".to_string(),
+        None => format!("{place}vec4f"),
     };
     let name = &body.options.pixel_entry;
     format!("{attribute}fn {name}({parameter}) -> {result} {{\n")
+}
+
+/// The depths of a pixel.
+struct Depths {
+    /// That of the primitive, as fog takes it.
+    of_position: String,
+    /// That which the stage sets.
+    written: Option<String>,
+}
+
+/// Works out the depth of the primitive, where that is not simply the position's and somebody asks for it.
+fn depth(body: &mut Body<'_>) -> Depths {
+    let shader_writes = body.stage.kernel.writes_depth();
+    let fog = (body.options.fog).filter(|_| body.shown().is_none());
+    let fogged =
+        fog.is_some_and(|fog| fog.table != FogMode::None && fog.distance == FogDistance::Z);
+    let own = shader_writes.then(|| "depth".to_string());
+    if !body.options.mapped_depth || shader_writes && !fogged {
+        return Depths {
+            of_position: "in.position.z".into(),
+            written: own,
+        };
+    }
+    let mapping = body.uniform(Field::DepthMapping);
+    let name = "depth_of_position";
+    body.push(format!(
+        "let {name} = saturate(in.position.z * {mapping}.x + {mapping}.y);"
+    ));
+    Depths {
+        of_position: name.into(),
+        written: own.or_else(|| Some(name.into())),
+    }
 }
 
 /// Everything that takes the pixel out, behind all sampling, which must not come after it.
@@ -108,9 +145,9 @@ fn alpha_fails(body: &mut Body<'_>, compare: Compare) -> Option<String> {
 }
 
 /// Mixes the fog in. 1 is clear.
-fn apply_fog(body: &mut Body<'_>, fog: Fog) {
+fn apply_fog(body: &mut Body<'_>, fog: Fog, depth: &str) {
     let distance = match fog.distance {
-        FogDistance::Z => "in.position.z",
+        FogDistance::Z => depth,
         FogDistance::W => "(1.0 / in.position.w)",
     };
     let factor = match fog.table {

@@ -75,13 +75,15 @@ impl Varyings {
             sets,
             colors,
             fog: fog.is_some_and(|fog| fog.table == FogMode::None),
-            position: vertex.is_some() || fog.is_some_and(|fog| fog.table != FogMode::None),
+            position: vertex.is_some()
+                || options.mapped_depth
+                || fog.is_some_and(|fog| fog.table != FogMode::None),
             clip: options.clip_planes.into(),
             flat: options.flat_shading,
         }
     }
 
-    /// Whether the pixel stage has a parameter: the vertex stage always gives a position, which only table fog looks at.
+    /// Whether the pixel stage has a parameter: the vertex stage always gives a position, which only table fog and the mapping of depths look at.
     pub(super) fn reach_pixel(&self) -> bool {
         self.position || !self.list().is_empty()
     }

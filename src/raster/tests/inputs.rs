@@ -185,6 +185,15 @@ fn the_depth_range_of_the_viewport_and_the_bias() {
     state.depth.bias = 16;
     // 16 steps of 1/65535.
     assert!((depth(&state) - (0.5 - 16.0 / 65535.0)).abs() < 1e-7);
+    // The same as a state says it: 0.25 + 0.5·0.5 less 16 steps.
+    (state.viewport.min_z, state.viewport.max_z) = (0.25, 0.75);
+    assert_eq!(state.depth_mapping()[0], 0.5);
+    assert!((state.depth_at(0.5) - depth(&state)).abs() < 1e-7);
+    // z is taken into 0 to 1 before it, the depth behind it.
+    assert!((state.depth_at(7.0) - (0.75 - 16.0 / 65535.0)).abs() < 1e-7);
+    (state.viewport.min_z, state.viewport.max_z) = (0.0, 1.0);
+    assert_eq!(state.depth_at(1.0 / 65535.0), 0.0);
+    assert_eq!(RenderState::default().depth_mapping(), [1.0, 0.0]);
 }
 
 #[test]

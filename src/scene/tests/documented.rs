@@ -54,7 +54,7 @@ fn every_key_is_described() {
         "{unknown}\n[camera]\n{unknown}\n[meshes.a]\npositions = []\n{unknown}\n[meshes.b]\nobj = \"x\"\n{unknown}\n{textures}\n\
          [targets.a]\n{unknown}\n[targets.a.camera]\n[targets.b]\nkind = \"cube\"\n{unknown}\n[[draw]]\n{unknown}\n\
          world = {{ {unknown} }}\n[draw.vs_constants]\nc0 = {{ {unknown} }}\n[draw.stages.0]\n{unknown}\n[draw.state]\n{unknown}\n\
-         fog = {{ {unknown} }}\nstencil = {{ {unknown} }}\n"
+         viewport = {{ {unknown} }}\nfog = {{ {unknown} }}\nstencil = {{ {unknown} }}\n"
     ))
     .unwrap_err();
     let helps = error

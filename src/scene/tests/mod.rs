@@ -5,6 +5,7 @@ mod meanings;
 mod pictures;
 mod pixels;
 mod refused;
+mod surroundings;
 mod targets;
 
 use std::collections::BTreeMap;

@@ -4,11 +4,11 @@ use super::support::{Shader, valid, valid_pair, validate};
 use crate::isa::ShaderKind;
 use crate::kernel::Slot;
 use crate::program::Usage;
-use crate::raster::{Compare, FogDistance, FogMode};
+use crate::raster::{Compare, FogDistance, FogMode, RenderState};
 use crate::texture::TextureKind;
 use crate::wgsl::{
-    Dimension, Field, Fog, Observed, Options, Points, Resource, StageOptions, TranslateError,
-    Translation, translate,
+    Binding, Dimension, Field, Fog, Observed, Options, Points, Resource, StageOptions,
+    TranslateError, Translation, translate,
 };
 
 fn everything() -> Options {
@@ -406,4 +406,43 @@ fn level_zero_is_read_explicitly() {
             assert!(translation.source.contains("textureSampleLevel"));
         }
     }
+}
+
+/// A bias or another range of depths makes the pixel stage set the depth, and fog go by it, but not that of a shader.
+#[test]
+fn depths_are_mapped_in_the_pixel_stage() {
+    let vs = Shader::new("vs.1.1\nmov oPos, v0\n");
+    let plain = Shader::new("ps.1.1\nmov r0, v0\n");
+    let own = Shader::new("ps.1.4\ntexcrd r5.rgb, t0\nphase\ntexdepth r5\nmov r0, v0\n");
+    let mut state = RenderState::default();
+    let mapped = |state: &RenderState| Options::default().with_state(state);
+    assert!(!mapped(&state).mapped_depth);
+    state.depth.bias = 1;
+    assert!(mapped(&state).mapped_depth);
+    state.depth.bias = 0;
+    state.viewport.min_z = 0.5;
+    let field = |translation: &Translation| {
+        let fields = |binding: &Binding| match &binding.resource {
+            Resource::Uniform { fields, .. } => fields.clone(),
+            _ => Vec::new(),
+        };
+        let all = translation.reflection.bindings.iter().flat_map(fields);
+        all.into_iter()
+            .any(|field| field.field == Field::DepthMapping)
+    };
+    let translation = valid_pair(&vs, &plain, &mapped(&state));
+    assert!(field(&translation));
+    assert!(
+        translation
+            .reflection
+            .pixel
+            .is_some_and(|pixel| pixel.writes_depth)
+    );
+    // A shader with a depth of its own leaves the field out, unless fog asks for it.
+    assert!(!field(&valid_pair(&vs, &own, &mapped(&state))));
+    state.fog.enable = true;
+    state.fog.table = FogMode::Linear;
+    assert!(field(&valid_pair(&vs, &own, &mapped(&state))));
+    state.fog.distance = FogDistance::W;
+    assert!(!field(&valid_pair(&vs, &own, &mapped(&state))));
 }

@@ -332,6 +332,136 @@ const AROUND: &[Rule] = &[
         "the depth of the shader is tested",
         &["states/z_of_shader"],
     ),
+    (
+        "1",
+        "fog and mask stand at either end of blending",
+        &["states/fog_before_blend", "states/color_write_behind_blend"],
+    ),
+    (
+        "1",
+        "what the alpha test takes out reaches nothing",
+        &["states/alpha_test_keeps_stencil_and_color"],
+    ),
+    (
+        "2",
+        "the depth range of the viewport",
+        &["states/viewport_depths", "states/viewport_depths_turned"],
+    ),
+    (
+        "6",
+        "a negative divisor turns the direction into a cube round",
+        &["texture-ps-1-0-to-1-3/tex_projected_cube"],
+    ),
+    (
+        "10",
+        "the bump mapping states are 0",
+        &["texture-ps-1-0-to-1-3/texbem_default_states"],
+    ),
+    (
+        "11",
+        "with a vertex shader the vertex mode is ignored",
+        &["states/fog_vertex_mode"],
+    ),
+    (
+        "11",
+        "without a vertex shader the fog is the alpha of the specular colour",
+        &["states/fog_of_specular"],
+    ),
+    (
+        "11",
+        "start 0, end 1, density 1, black",
+        &[
+            "states/fog_defaults_linear",
+            "states/fog_defaults_exp",
+            "states/fog_defaults_exp2",
+        ],
+    ),
+    (
+        "11",
+        "start and end in one place are a step",
+        &["states/fog_start_is_end"],
+    ),
+    (
+        "11",
+        "depth or w, within the range of the viewport",
+        &[
+            "states/fog_distance_z",
+            "states/fog_distance_w",
+            "states/fog_distance_w_exp",
+            "states/viewport_depths_and_fog",
+        ],
+    ),
+    (
+        "12",
+        "rounded to the nearest of 8 bits, at both ends too",
+        &[
+            "states/alpha_rounded",
+            "states/alpha_of_0",
+            "states/alpha_of_255",
+        ],
+    ),
+    (
+        "13",
+        "r0 is clamped before it is blended, the result after it",
+        &[
+            "states/blend_clamped_before",
+            "states/blend_add_invdestcolor_srccolor",
+            "states/blend_add_srcalpha_destalpha",
+            "states/blend_subtract_invdestcolor_srccolor",
+            "states/blend_subtract_srcalpha_destalpha",
+            "states/blend_revsubtract_invdestcolor_srccolor",
+            "states/blend_revsubtract_srcalpha_destalpha",
+        ],
+    ),
+    (
+        "13",
+        "min and max ignore the factors",
+        &[
+            "states/blend_min_bothinvsrcalpha_destcolor",
+            "states/blend_min_srcalpha_invsrcalpha",
+            "states/blend_min_zero_zero",
+            "states/blend_max_bothinvsrcalpha_destcolor",
+            "states/blend_max_srcalpha_invsrcalpha",
+            "states/blend_max_zero_zero",
+        ],
+    ),
+    (
+        "13",
+        "the factors for both sides ignore that of the target",
+        &[
+            "states/blend_bothsrcalpha_before_destalpha",
+            "states/blend_bothsrcalpha_before_one",
+            "states/blend_bothsrcalpha_before_srcalpha",
+            "states/blend_bothinvsrcalpha_before_destalpha",
+            "states/blend_bothinvsrcalpha_before_one",
+            "states/blend_bothinvsrcalpha_before_srcalpha",
+        ],
+    ),
+    (
+        "13",
+        "the alpha of a target without alpha is 1",
+        &[
+            "states/without_alpha_destalpha",
+            "states/without_alpha_drawn",
+            "states/without_alpha_invdestalpha",
+            "states/without_alpha_srcalphasat",
+        ],
+    ),
+    (
+        "14",
+        "a step of the bias is 1/65535",
+        &["states/z_bias", "states/z_bias_depth"],
+    ),
+    (
+        "14",
+        "the depth of the shader is clamped, and knows neither viewport nor bias",
+        &["states/z_of_shader_alone"],
+    ),
+    (
+        "14",
+        "the masks of the stencil test",
+        &["states/stencil_masked", "states/stencil_refs"],
+    ),
 ];
 
 /// What people hit with these shaders. What is not of a listing that runs (vertex declarations, seams between pixels) has its tests elsewhere.
