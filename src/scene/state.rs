@@ -188,6 +188,12 @@ pub(crate) fn sampler(s: &mut Section<'_>, weights: Weights, problems: &mut Prob
             default.max_mip_level.into(),
             problems,
         ) as u32,
+        max_anisotropy: s.ranged(
+            "max_anisotropy",
+            Sampler::ANISOTROPY,
+            default.max_anisotropy,
+            problems,
+        ),
         border: s.array_or("border", default.border, problems),
         seamless: s.or("seamless", default.seamless, problems),
         weights,
@@ -214,13 +220,13 @@ where
     }
 }
 
-/// A filter; `anisotropic` is linear, as on devices that cannot do better.
+/// A filter. The cubic filters of Direct3D 8 are linear, as on all devices but those that had them.
 fn filter_name(node: super::section::Node<'_>, problems: &mut Problems) -> Filter {
     let key = node.key.clone();
     let Some(At { value, span }) = node.read::<String>(problems) else {
         return Filter::default();
     };
-    if value.eq_ignore_ascii_case("anisotropic") {
+    if ["flatcubic", "gaussiancubic"].contains(&value.to_ascii_lowercase().as_str()) {
         return Filter::Linear;
     }
     parse(&value, &key, span, problems).unwrap_or_default()
