@@ -31,6 +31,7 @@ pub(super) enum Helper {
     CubeFace,
     AlongFace,
     OnFace,
+    FaceStep,
     OutOfFace,
     AcrossEdge,
     /// A cube whose faces are filtered one by one.
@@ -86,6 +87,7 @@ impl Helper {
             Self::CubeFace => "cube_face".into(),
             Self::AlongFace => "along_face".into(),
             Self::OnFace => "on_face".into(),
+            Self::FaceStep => "face_step".into(),
             Self::OutOfFace => "out_of_face".into(),
             Self::AcrossEdge => "across_edge".into(),
             Self::SampleFaces(detail) => match detail {
@@ -120,7 +122,9 @@ impl Helper {
             | Self::Log2(OfZero::Infinity) => vec![Self::Infinity],
             Self::OnFace => vec![Self::AlongFace],
             Self::AcrossEdge => vec![Self::CubeFace, Self::AlongFace, Self::OutOfFace],
-            Self::SampleFaces(_) => vec![Self::CubeFace, Self::OnFace],
+            Self::FaceStep => vec![Self::CubeFace, Self::OnFace],
+            Self::SampleFaces(Detail::LevelZero) => vec![Self::CubeFace, Self::OnFace],
+            Self::SampleFaces(Detail::Plain | Detail::Bias) => vec![Self::FaceStep],
             Self::Texel(texels) => texels.needs(),
             Self::Within(filter, texels) => filter.needs(texels),
             Self::Filtered(filter) => filter.needs(),
@@ -198,6 +202,7 @@ impl Helper {
             Self::CubeFace => CUBE_FACE.into(),
             Self::AlongFace => ALONG_FACE.into(),
             Self::OnFace => ON_FACE.into(),
+            Self::FaceStep => texels::FACE_STEP.into(),
             Self::OutOfFace => texels::OUT_OF_FACE.into(),
             Self::AcrossEdge => texels::ACROSS_EDGE.into(),
             Self::SampleFaces(detail) => sample_faces(&self.name(), detail),
@@ -379,7 +384,7 @@ fn sample_faces(name: &str, detail: Detail) -> String {
 }
 
 fn face_steps() -> String {
-    ['x', 'y'].map(|d| texels::face_step(d, d)).concat()
+    ['x', 'y'].map(texels::face_step).concat()
 }
 
 fn held(name: &str, model: Model, width: usize) -> String {

@@ -240,7 +240,9 @@ impl Body<'_> {
         // Coordinates are named x, y and z, whatever register holds them.
         let at = self.operand_named(step, 0, slots, XYZW);
         let at = at.spread(state.coordinates()).text;
-        let by_hand = state.is_by_hand().then(|| state.by_hand(self.options.level_zero));
+        let by_hand = state
+            .is_by_hand()
+            .then(|| state.by_hand(self.options.level_zero));
         let texel = match by_hand.flatten() {
             Some(sample) => self.texel_by_hand(stage, sample, at),
             None => self.texel(stage, at),

@@ -68,8 +68,7 @@ impl StageOptions {
             Some(TextureKind::Volume) => 3,
         };
         let unknown = |mode| matches!(mode, AddressMode::Border | AddressMode::MirrorOnce);
-        let blends =
-            self.mag.is_linear() || self.min.is_linear() || self.mip == MipFilter::Linear;
+        let blends = self.mag.is_linear() || self.min.is_linear() || self.mip == MipFilter::Linear;
         // A sampler of WebGPU looks at λ behind the limits of the levels, and leaves open where halves go to.
         let other_limits = self.max_mip_level > 0 && self.mag.is_linear() != self.min.is_linear();
         let levels = match self.mip {
@@ -429,7 +428,9 @@ impl Filtered {
         match self.mip {
             MipFilter::None => format!("{within}{suffix}"),
             MipFilter::Point => format!("{within}_mip{suffix}"),
-            MipFilter::Linear if self.coarse => format!("{within}_coarse_mips{suffix}"),
+            MipFilter::Linear if self.coarse && self.within == Within::Point => {
+                format!("{within}_coarse_mips{suffix}")
+            }
             MipFilter::Linear => format!("{within}_mips{suffix}"),
         }
     }
@@ -532,25 +533,26 @@ impl ByHand {
     }
 
     pub(super) fn name(self) -> String {
-        let filters = match (self.mag == self.min, self.most) {
-            (true, 1) => self.mag.within.word().to_string(),
-            (_, 1) => format!("{}_{}", self.mag.within.word(), self.min.within.word()),
-            (_, most) => format!(
-                "{}_{}_{most}_probes",
-                self.mag.within.word(),
-                self.min.within.word()
-            ),
-        };
+        let mut filters = self.mag.within.word().to_string();
+        if self.mag != self.min {
+            filters += &format!("_{}", self.min.within.word());
+        }
+        if self.most > 1 {
+            filters += &format!("_{}_probes", self.most);
+        }
         let mip = match self.mag.mip {
             MipFilter::None => "",
             MipFilter::Point => "_mip",
-            MipFilter::Linear if self.mag.coarse => "_coarse_mips",
             MipFilter::Linear => "_mips",
+        };
+        let weights = match self.mag.coarse && filters == "point" {
+            true => "_coarse",
+            false => "",
         };
         let bias = if self.bias { "_bias" } else { "" };
         let zero = if self.level_zero { "_level_zero" } else { "" };
         let suffix = self.mag.texels.suffix();
-        format!("sample_{filters}{mip}{bias}{zero}{suffix}")
+        format!("sample_{filters}{weights}{mip}{bias}{zero}{suffix}")
     }
 
     pub(super) fn needs(self) -> Vec<Helper> {
@@ -560,6 +562,9 @@ impl ByHand {
         };
         if self.has_lambda() {
             needs.push(Helper::LevelOfDetail);
+            if self.mag.texels.is_cube() {
+                needs.push(Helper::FaceStep);
+            }
         }
         if self.mag.texels.is_cube() {
             needs.extend([Helper::CubeFace, Helper::OnFace]);
@@ -591,7 +596,8 @@ impl ByHand {
             texels.texture(),
         );
         if texels.is_cube() {
-            text += "    let face = cube_face(direction);\n    let at = on_face(face, direction);\n";
+            text +=
+                "    let face = cube_face(direction);\n    let at = on_face(face, direction);\n";
         }
         let scale = if texels.bytes { " / 255.0" } else { "" };
         if self.has_lambda() {
@@ -619,7 +625,11 @@ impl ByHand {
         };
         let within = match (self.mag.within == self.min.within, self.most) {
             (true, 1) => words(self.mag).to_string(),
-            (_, 1) => format!("{} magnified, {} minified", words(self.mag), words(self.min)),
+            (_, 1) => format!(
+                "{} magnified, {} minified",
+                words(self.mag),
+                words(self.min)
+            ),
             (_, most) => format!(
                 "{} magnified, minified {} with up to {most} probes",
                 words(self.mag),
@@ -640,7 +650,7 @@ impl ByHand {
         let texels = self.mag.texels;
         let w = texels.width();
         let step = |d: char| match texels.is_cube() {
-            true => face_step(d, d),
+            true => face_step(d),
             false => format!("    let {d} = dpd{d}Fine(at);\n"),
         };
         let bias = if self.bias { " + bias" } else { "" };
@@ -675,8 +685,7 @@ impl ByHand {
         let (at, face) = match texels.is_cube() {
             false => ("place", ""),
             true => {
-                text +=
-                    "        let there = out_of_face(face, vec3f(2.0 * place - 1.0, 1.0));\n        \
+                text += "        let there = out_of_face(face, vec3f(2.0 * place - 1.0, 1.0));\n        \
                          let its_face = cube_face(there);\n";
                 ("on_face(its_face, there)", "its_face")
             }
@@ -687,14 +696,25 @@ impl ByHand {
     }
 }
 
-/// The line with the step `name` in a face to the neighbouring pixel along a direction of the screen. A neighbour on
-/// another face is looked for in the plane of this one.
-pub(super) fn face_step(direction: char, name: char) -> String {
+/// The line with the step in a face of a cube to the neighbouring pixel along x or y of the screen, which is its name.
+pub(super) fn face_step(direction: char) -> String {
     let d = format!("dpd{direction}Fine");
     format!(
-        "    let {name} = select(on_face(face, direction + {d}(direction)) - at, {d}(at), {d}(f32(face)) == 0.0);\n"
+        "    let {direction} = face_step(face, at, direction, {d}(direction), {d}(at), {d}(f32(face)));\n"
     )
 }
+
+// Which of the two pixels asks is told by whose face the other one has.
+pub(super) const FACE_STEP: &str = "\
+// The step in a face from a pixel to its neighbour, from derivatives. One on another face is looked for in the plane of this one.
+fn face_step(face: u32, at: vec2f, direction: vec3f, d: vec3f, d_at: vec2f, d_face: f32) -> vec2f {
+    if d_face == 0.0 {
+        return d_at;
+    }
+    let is_ahead = f32(cube_face(direction + d)) - f32(face) == d_face;
+    return on_face(face, select(direction - d, direction + d, is_ahead)) - at;
+}
+";
 
 pub(super) const BETWEEN: &str = "\
 // From a to b.

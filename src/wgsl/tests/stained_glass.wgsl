@@ -85,12 +85,21 @@ fn on_face(face: u32, direction: vec3f) -> vec2f {
     return select((at.xy / distance + 1.0) / 2.0, vec2f(0.5), distance == 0.0);
 }
 
+// The step in a face from a pixel to its neighbour, from derivatives. One on another face is looked for in the plane of this one.
+fn face_step(face: u32, at: vec2f, direction: vec3f, d: vec3f, d_at: vec2f, d_face: f32) -> vec2f {
+    if d_face == 0.0 {
+        return d_at;
+    }
+    let is_ahead = f32(cube_face(direction + d)) - f32(face) == d_face;
+    return on_face(face, select(direction - d, direction + d, is_ahead)) - at;
+}
+
 // A cube as Direct3D 8 filters it, each face for itself.
 fn sample_faces(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f) -> vec4f {
     let face = cube_face(direction);
     let at = on_face(face, direction);
-    let x = select(on_face(face, direction + dpdxFine(direction)) - at, dpdxFine(at), dpdxFine(f32(face)) == 0.0);
-    let y = select(on_face(face, direction + dpdyFine(direction)) - at, dpdyFine(at), dpdyFine(f32(face)) == 0.0);
+    let x = face_step(face, at, direction, dpdxFine(direction), dpdxFine(at), dpdxFine(f32(face)));
+    let y = face_step(face, at, direction, dpdyFine(direction), dpdyFine(at), dpdyFine(f32(face)));
     return textureSampleGrad(faces, clamped, at, face, x, y);
 }
 

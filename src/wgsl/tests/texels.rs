@@ -174,7 +174,8 @@ fn stages_share_functions() {
     ] {
         options.stages[stage].address = [mode; 3];
     }
-    let listing = "ps.1.4\ntexld r0, t0\ntexld r1, t1\ntexld r2, t2\nadd r0, r0, r1\nadd r0, r0, r2\n";
+    let listing =
+        "ps.1.4\ntexld r0, t0\ntexld r1, t1\ntexld r2, t2\nadd r0, r0, r1\nadd r0, r0, r2\n";
     let source = Shader::new(listing).translate(&options).source;
     validate(&source);
     assert_eq!(source.matches("fn texel_border(").count(), 1, "{source}");

@@ -40,7 +40,11 @@ fn probes_lie_along_the_longer_derivative() {
     let texture = columns();
     // 8 texels along u and 2 along v: λ = 3. Four probes, each of 2 texels: level 1, eight texels wide. They are an eighth
     // apart: u = 5/16, 7/16, 9/16, 11/16, where 8u − 0.5 = 2, 3, 4, 5: columns 102 to 105.
-    let (detail, value) = first(&texture, &anisotropic(16), quad([8.0, 0.0], [0.0, 2.0], 16.0));
+    let (detail, value) = first(
+        &texture,
+        &anisotropic(16),
+        quad([8.0, 0.0], [0.0, 2.0], 16.0),
+    );
     assert_eq!((detail.lambda(), detail.probes()), (3.0, 4));
     assert_eq!(value[..2], [103.5, 3.5]);
     let print = footprint(&texture, &anisotropic(16), [0.5; 3], detail);
@@ -51,10 +55,18 @@ fn probes_lie_along_the_longer_derivative() {
     assert_eq!(columns, expected.as_flattened());
     assert!(print.taps.iter().all(|tap| tap.weight == 0.125));
     // The same turned by 90°: rows 2 to 5.
-    let (_, value) = first(&texture, &anisotropic(16), quad([0.0, 2.0], [0.0, 8.0], 16.0));
+    let (_, value) = first(
+        &texture,
+        &anisotropic(16),
+        quad([0.0, 2.0], [0.0, 8.0], 16.0),
+    );
     assert_eq!(value[1], 3.5);
     // Slanted, 6 and 8 texels, and 5 at right angles to it: λ = log2 10, two probes of 5 texels.
-    let (detail, _) = first(&texture, &anisotropic(16), quad([6.0, 8.0], [-4.0, 3.0], 16.0));
+    let (detail, _) = first(
+        &texture,
+        &anisotropic(16),
+        quad([6.0, 8.0], [-4.0, 3.0], 16.0),
+    );
     assert_eq!(detail.probes(), 2);
     assert!((detail.lambda() - 10f32.log2()).abs() < 1e-6);
     assert!((detail.level() - 5f32.log2()).abs() < 1e-6);
@@ -224,7 +236,12 @@ fn weights_of_eight_bits_in_every_probe() {
     // x of the probes, 16 · (u ∓ 1/8) − 0.5, is 4.7504 and 8.7504; 0.7504 is 192.1/256, rounded to 192/256. Texel 4 has
     // the rest, 64/256, of the first probe.
     let u = 0.5 - 3.0 / 64.0 + 0.0004 / 16.0;
-    let quad = [[u, 0.5, 0.0], [u + 0.5, 0.5, 0.0], [u, 0.5, 0.0], [u, 0.5, 0.0]];
+    let quad = [
+        [u, 0.5, 0.0],
+        [u + 0.5, 0.5, 0.0],
+        [u, 0.5, 0.0],
+        [u, 0.5, 0.0],
+    ];
     let (detail, value) = first(&texture, &sampler, quad);
     assert_eq!(detail.probes(), 2);
     assert_eq!(value[0], (64.0 / 256.0) / 2.0);
