@@ -366,7 +366,7 @@ fn moved(x: Approx, size: u32, filter: Filter, rounding: f64) -> Option<f64> {
     let place = x.scale(size);
     let off = place.error + rounding * place.value.abs();
     match filter {
-        Filter::Linear => Some(off + WEIGHT),
+        Filter::Linear | Filter::Anisotropic => Some(off + WEIGHT),
         Filter::Point if x.error == 0.0 => Some(0.0),
         Filter::Point => {
             let edge = (place.value - place.value.round()).abs();

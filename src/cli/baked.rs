@@ -8,7 +8,7 @@ use texcrd::kernel::{self, Projection};
 use texcrd::policy::Model;
 use texcrd::program::Program;
 use texcrd::raster::{Compare, FogDistance, FogMode};
-use texcrd::texture::{AddressMode, TextureKind, Weights};
+use texcrd::texture::{AddressMode, Filter, MipFilter, Sampler, TextureKind, Weights};
 use texcrd::wgsl::{self, Fog, Options, Stage};
 
 /// Options of the command line.
@@ -25,10 +25,19 @@ pub(super) struct Baked {
     /// Let filters on the cube of a stage reach across its edges, which they did not in Direct3D 8.
     #[arg(long, value_name = "STAGE", value_parser = stage)]
     seamless: Vec<usize>,
-    /// The address mode of a stage: wrap, mirror, clamp, border or mirror_once. The last two become shader code; the
-    /// others are up to the sampler.
+    /// The address mode of a stage: wrap, mirror, clamp, border or mirror_once. The last two become shader code, as do
+    /// filters with the weights of a hardware model; the others are up to the sampler.
     #[arg(long = "address", value_name = "STAGE=MODE", value_parser = address)]
     addresses: Vec<(usize, AddressMode)>,
+    /// The filter of a stage, where it becomes shader code: point, linear (as without it) or anisotropic.
+    #[arg(long = "filter", value_name = "STAGE=FILTER", value_parser = filter)]
+    filters: Vec<(usize, Filter)>,
+    /// The filter between levels of a stage, where it becomes shader code: none (as without it), point or linear.
+    #[arg(long = "mip", value_name = "STAGE=FILTER", value_parser = mip)]
+    mips: Vec<(usize, MipFilter)>,
+    /// The most probes of an anisotropic filter, 1 to 16, which becomes shader code from 2 on.
+    #[arg(long = "max-anisotropy", value_name = "STAGE=N", value_parser = anisotropy)]
+    anisotropies: Vec<(usize, u32)>,
     /// Take the level-of-detail bias of a stage from the uniform block.
     #[arg(long, value_name = "STAGE", value_parser = stage)]
     lod_bias: Vec<usize>,
@@ -77,6 +86,17 @@ fn of_stage<T>(
     Ok((number, value(rest)?))
 }
 
+/// The stages that something was said of.
+fn stages_of<T>(said: &[(usize, T)]) -> Vec<usize> {
+    said.iter().map(|(stage, _)| *stage).collect()
+}
+
+/// What was said of a stage last.
+fn last_of<T: Copy>(said: &[(usize, T)], stage: usize) -> Option<T> {
+    let mut of_stage = said.iter().filter(|(of, _)| *of == stage);
+    of_stage.next_back().map(|(_, value)| *value)
+}
+
 /// The value parser of `--texture`.
 fn texture(text: &str) -> Result<(usize, Option<TextureKind>), String> {
     of_stage(text, "3=cube", |kind| match kind {
@@ -91,6 +111,29 @@ fn texture(text: &str) -> Result<(usize, Option<TextureKind>), String> {
 fn address(text: &str) -> Result<(usize, AddressMode), String> {
     of_stage(text, "3=border", |mode| {
         AddressMode::from_str(mode).map_err(|error| error.to_string())
+    })
+}
+
+/// The value parser of `--filter`.
+fn filter(text: &str) -> Result<(usize, Filter), String> {
+    of_stage(text, "3=linear", |filter| {
+        Filter::from_str(filter).map_err(|error| error.to_string())
+    })
+}
+
+/// The value parser of `--mip`.
+fn mip(text: &str) -> Result<(usize, MipFilter), String> {
+    of_stage(text, "3=linear", |filter| {
+        MipFilter::from_str(filter).map_err(|error| error.to_string())
+    })
+}
+
+/// The value parser of `--max-anisotropy`.
+fn anisotropy(text: &str) -> Result<(usize, u32), String> {
+    of_stage(text, "3=16", |number| {
+        let range = Sampler::ANISOTROPY;
+        let most = number.parse().ok().filter(|most| range.contains(most));
+        most.ok_or_else(|| format!("`{number}`: {} to {}", range.start(), range.end()))
     })
 }
 
@@ -122,6 +165,14 @@ impl Baked {
             (!self.projected.is_empty(), "--projected", pixel, "pixel"),
             (!self.seamless.is_empty(), "--seamless", pixel, "pixel"),
             (!self.addresses.is_empty(), "--address", pixel, "pixel"),
+            (!self.filters.is_empty(), "--filter", pixel, "pixel"),
+            (!self.mips.is_empty(), "--mip", pixel, "pixel"),
+            (
+                !self.anisotropies.is_empty(),
+                "--max-anisotropy",
+                pixel,
+                "pixel",
+            ),
             (!self.lod_bias.is_empty(), "--lod-bias", pixel, "pixel"),
             (self.points.is_some(), "--points", vertex, "vertex"),
             (self.clip_planes > 0, "--clip-planes", vertex, "vertex"),
@@ -139,12 +190,14 @@ impl Baked {
         }
         let read = pixel.kernel.stages();
         let of = |stages: &[usize]| stages.iter().fold(0u8, |set, stage| set | 1 << stage);
-        let addressed: Vec<usize> = self.addresses.iter().map(|(stage, _)| *stage).collect();
         for (name, stages) in [
             ("--texture", given),
             ("--projected", of(&self.projected)),
             ("--seamless", of(&self.seamless)),
-            ("--address", of(&addressed)),
+            ("--address", of(&stages_of(&self.addresses))),
+            ("--filter", of(&stages_of(&self.filters))),
+            ("--mip", of(&stages_of(&self.mips))),
+            ("--max-anisotropy", of(&stages_of(&self.anisotropies))),
             ("--lod-bias", of(&self.lod_bias)),
         ] {
             for stage in (0..8).filter(|stage| (stages & !read) >> stage & 1 == 1) {
@@ -212,10 +265,15 @@ impl Baked {
             if model.has_coarse_filters() {
                 stage.weights = Weights::EightBits;
             }
-            let mut modes = self.addresses.iter().filter(|(of, _)| *of == number);
-            if let Some((_, mode)) = modes.next_back() {
-                stage.address = [*mode; 3];
+            if let Some(mode) = last_of(&self.addresses, number) {
+                stage.address = [mode; 3];
             }
+            if let Some(filter) = last_of(&self.filters, number) {
+                (stage.mag, stage.min) = (filter, filter);
+            }
+            stage.mip = last_of(&self.mips, number).unwrap_or(stage.mip);
+            let most = last_of(&self.anisotropies, number);
+            stage.max_anisotropy = most.unwrap_or(stage.max_anisotropy);
         }
         options
     }

@@ -130,7 +130,11 @@ fn baked(options: &Options, reflection: &Reflection) -> Value {
             let state = json!({
                 "texture": stage.texture.map(|kind| kind.to_string()),
                 "address": stage.address.map(|mode| mode.to_string()),
-                "filter": stage.filter.to_string(),
+                "mag": stage.mag.to_string(),
+                "min": stage.min.to_string(),
+                "mip": stage.mip.to_string(),
+                "max_mip_level": stage.max_mip_level,
+                "max_anisotropy": stage.max_anisotropy,
                 "seamless": stage.seamless,
                 "lod_bias": stage.lod_bias,
                 "wide_texels": stage.wide_texels,

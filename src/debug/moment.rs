@@ -5,6 +5,7 @@ use crate::kernel::{Operand, Slot};
 use crate::raster::{
     AlphaTested, Blended, ColorWritten, DepthTested, Fogged, StencilTested, Stored,
 };
+use crate::texture::Detail;
 
 /// A register of the four pixels of a quad, pixel by pixel: (x, y), (x+1, y), (x, y+1), (x+1, y+1). A vertex or a listing run by
 /// hand has the same values four times.
@@ -144,8 +145,8 @@ pub struct Sample {
     pub stage: usize,
     /// u, v, w for each pixel.
     pub coordinates: [[f32; 3]; 4],
-    /// The level of detail for each pixel, bias included; −∞ where the coordinates of the quad are all the same.
-    pub level: [f32; 4],
+    /// Level of detail and probes for each pixel; the level is −∞ where the coordinates of the quad are all the same.
+    pub detail: [Detail; 4],
 }
 
 /// What is remarkable about a moment for one pixel, component by component.

@@ -6,7 +6,7 @@ use crate::exec::{Environment, Lanes, Machine, Observer};
 use crate::isa::{Opcode, ResultModifier, WriteMask};
 use crate::kernel::{Op, Operand, Place, Slot, Step};
 use crate::semantics::{self, Finish};
-use crate::texture::levels_of_detail;
+use crate::texture::{Detail, details};
 use std::ops::Range;
 
 /// A shader with everything that it runs with.
@@ -278,13 +278,14 @@ impl Recorder<'_> {
         let stage = usize::from(stage);
         let coordinates = read.values.map(|[u, v, w, _]| [u, v, w]);
         let bound = self.environment.stages.get(stage)?;
-        let level = bound.texture.map_or([f32::NEG_INFINITY; 4], |texture| {
-            levels_of_detail(texture, &bound.sampler, &coordinates)
+        let none = Detail::from(f32::NEG_INFINITY);
+        let detail = bound.texture.map_or([none; 4], |texture| {
+            details(texture, &bound.sampler, &coordinates)
         });
         Some(Sample {
             stage,
             coordinates,
-            level,
+            detail,
         })
     }
 

@@ -115,14 +115,14 @@ impl GpuTexture {
             _ if clamps[i] => wgpu::AddressMode::ClampToEdge,
             AddressMode::Wrap => wgpu::AddressMode::Repeat,
             AddressMode::Mirror => wgpu::AddressMode::MirrorRepeat,
-            // The shader does what these two do more than clamping.
+            // The last two are the shader's business, which then has no sampler.
             AddressMode::Clamp | AddressMode::Border | AddressMode::MirrorOnce => {
                 wgpu::AddressMode::ClampToEdge
             }
         };
-        let filter = |filter: Filter| match filter {
-            Filter::Point => wgpu::FilterMode::Nearest,
-            Filter::Linear => wgpu::FilterMode::Linear,
+        let filter = |filter: Filter| match filter.is_linear() {
+            false => wgpu::FilterMode::Nearest,
+            true => wgpu::FilterMode::Linear,
         };
         let last = self.levels - 1;
         let (mipmap, least, most) = match sampler.mip {
@@ -227,9 +227,14 @@ pub fn stage_options(texture: Option<&Texture>, sampler: &Sampler) -> StageOptio
         texture: texture.map(Texture::kind),
         seamless: sampler.seamless,
         address: sampler.address,
-        filter: sampler.mag,
+        mag: sampler.mag,
+        min: sampler.min,
+        mip: sampler.mip,
+        max_mip_level: sampler.max_mip_level,
+        max_anisotropy: sampler.max_anisotropy,
         lod_bias: sampler.lod_bias != 0.0,
         weights: sampler.weights,
+        byte_texels: texture.is_some_and(|texture| texture.format().is_packed()),
         wide_texels: texture.is_some_and(|texture| texture.format() == Format::Rgba32F),
     }
 }

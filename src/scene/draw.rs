@@ -19,7 +19,7 @@ use crate::mesh::Attribute;
 use crate::program::{Program, Usage};
 use crate::raster::{FogDistance, RenderState, Topology};
 use crate::semantics::BumpState;
-use crate::texture::{Sampler, Weights};
+use crate::texture::{Filter, Sampler, Weights};
 
 /// Which attribute of the mesh feeds each input register `v0` to `v15`; one that nothing feeds reads (0, 0, 0, 1).
 pub type Declaration = [Option<Attribute>; 16];
@@ -268,9 +268,11 @@ fn stages(
             continue;
         };
         let title = section.inner_title(&node.key);
+        let place = node.key_span;
         let Some(mut table) = node.into_section(title, problems) else {
             continue;
         };
+        let anisotropy_given = table.has("max_anisotropy");
         named[number] = table.has("texture");
         let texture = table.at::<String>("texture", problems);
         stages[number] = Stage {
@@ -279,6 +281,12 @@ fn stages(
             bump: bump(&mut table, problems),
             projected: table.or("projected", false, problems),
         };
+        if stages[number].sampler.min == Filter::Anisotropic && !anisotropy_given {
+            let message = format!(
+                "stage {number} is filtered as linear: `max_anisotropy` is 1, as in Direct3D 8, until it is set"
+            );
+            problems.warning(&rules::IDLE, place, message);
+        }
         table.finish(problems);
     }
     (stages, named)

@@ -266,6 +266,12 @@ pub(crate) fn sampler(s: &mut Section<'_>, weights: Weights, problems: &mut Prob
             default.max_mip_level.into(),
             problems,
         ) as u32,
+        max_anisotropy: s.ranged(
+            "max_anisotropy",
+            Sampler::ANISOTROPY,
+            default.max_anisotropy,
+            problems,
+        ),
         border: s.color_or("border", default.border, problems),
         seamless: s.or("seamless", default.seamless, problems),
         weights,
@@ -292,26 +298,27 @@ where
     }
 }
 
-/// A filter; `anisotropic` is linear, as on devices that cannot do better.
+/// A filter. The cubic filters of Direct3D 8 are linear, as on all devices but those that had them.
 fn filter_name(node: super::section::Node<'_>, problems: &mut Problems) -> Filter {
     let key = node.key.clone();
     let Some(At { value, span }) = node.read::<String>(problems) else {
         return Filter::default();
     };
-    if parse_name::<Anisotropic>(&value).is_ok() {
+    if parse_name::<Cubic>(&value).is_ok() {
         return Filter::Linear;
     }
     parse(&value, &key, span, problems).unwrap_or_default()
 }
 
-/// The name of a filter that is done as another one.
-struct Anisotropic;
+/// The filters that are done as another one.
+struct Cubic;
 
-impl std::str::FromStr for Anisotropic {
+impl std::str::FromStr for Cubic {
     type Err = ();
 
     fn from_str(name: &str) -> Result<Self, ()> {
-        (name == "anisotropic").then_some(Self).ok_or(())
+        let cubic = ["flatcubic", "gaussiancubic"].contains(&name);
+        cubic.then_some(Self).ok_or(())
     }
 }
 

@@ -78,7 +78,7 @@ pub(super) use names;
 
 /// `D3DTSS_ADDRESSU`, `V`, `W`: which texel an index outside 0..n stands for. The rule is applied to each texel that
 /// a filter reads. Cube textures ignore it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum AddressMode {
     /// `D3DTADDRESS_WRAP`: i mod n.
     #[default]
@@ -103,11 +103,21 @@ pub enum Filter {
     Point,
     /// `D3DTEXF_LINEAR`: the two texels around the coordinate on each axis, weighted by nearness of their centres.
     Linear,
+    /// `D3DTEXF_ANISOTROPIC`: where a texture is minified, linear probes along the longer derivative of the coordinates
+    /// ([`Detail`](super::Detail)), at most [`Sampler::max_anisotropy`] of them. Magnified it is [`Self::Linear`].
+    Anisotropic,
 }
-names!(Filter, "filter", Point "point", Linear "linear");
+names!(Filter, "filter", Point "point", Linear "linear", Anisotropic "anisotropic");
+
+impl Filter {
+    /// Whether neighbouring texels are blended.
+    pub fn is_linear(self) -> bool {
+        self != Self::Point
+    }
+}
 
 /// `D3DTSS_MIPFILTER`: how levels are chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum MipFilter {
     /// `D3DTEXF_NONE`: always level 0.
     #[default]
@@ -129,8 +139,9 @@ pub enum Weights {
     EightBits,
 }
 
-/// How a texture is read. The default is Direct3D 8's: wrap, point, point, no mip levels, border 0, 0, 0, 0.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// How a texture is read. The default is Direct3D 8's: wrap, point, point, no mip levels, anisotropy of at most 1, border
+/// 0, 0, 0, 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sampler {
     /// Address mode of u, v and w.
     pub address: [AddressMode; 3],
@@ -144,12 +155,45 @@ pub struct Sampler {
     pub lod_bias: f32,
     /// `D3DTSS_MAXMIPLEVEL`: the number of the largest level that may be read; 0 allows all.
     pub max_mip_level: u32,
+    /// `D3DTSS_MAXANISOTROPY`: the most probes of [`Filter::Anisotropic`], [`Self::ANISOTROPY`]; what lies outside of it
+    /// counts as the nearer end. With 1, the default, the filter is linear.
+    pub max_anisotropy: u32,
     /// `D3DTSS_BORDERCOLOR` as r, g, b, a.
     pub border: [f32; 4],
     /// Whether filters on a cube reach across edges. Direct3D 8 parts stayed inside the face: false.
     pub seamless: bool,
     /// How exact the weights of linear filters are.
     pub weights: Weights,
+}
+
+impl Sampler {
+    /// What [`Self::max_anisotropy`] may be.
+    pub const ANISOTROPY: std::ops::RangeInclusive<u32> = 1..=16;
+
+    /// How many probes a minified sample may have.
+    pub(crate) fn most_probes(&self) -> u8 {
+        match self.min {
+            Filter::Anisotropic => self.max_anisotropy.clamp(1, *Self::ANISOTROPY.end()) as u8,
+            Filter::Point | Filter::Linear => 1,
+        }
+    }
+}
+
+impl Default for Sampler {
+    fn default() -> Self {
+        Self {
+            address: Default::default(),
+            mag: Filter::Point,
+            min: Filter::Point,
+            mip: MipFilter::None,
+            lod_bias: 0.0,
+            max_mip_level: 0,
+            max_anisotropy: 1,
+            border: [0.0; 4],
+            seamless: false,
+            weights: Weights::Full,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -211,14 +211,6 @@ impl<'a> Body<'a> {
         self.text.len()
     }
 
-    /// Indents the lines since a mark.
-    pub(super) fn indent_from(&mut self, mark: usize) {
-        let lines = self.text.split_off(mark);
-        for line in lines.lines() {
-            self.push(line);
-        }
-    }
-
     /// Puts an empty line at a mark.
     pub(super) fn insert_blank(&mut self, mark: usize) {
         self.text.insert(mark, '\n');

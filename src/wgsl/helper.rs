@@ -1,7 +1,9 @@
 //! The functions that a translation may need, as they stand in it.
 
 use super::number::{LARGEST, SMALLEST_NORMAL};
+use super::texels::{self, ByHand, Filtered, Texels, Within};
 use crate::policy::{Model, OfZero};
+use crate::texture::AddressMode;
 use std::collections::BTreeSet;
 
 /// A function, or a family of functions that differ in their number of components. What another one calls stands
@@ -26,17 +28,22 @@ pub(super) enum Helper {
     Mirror,
     /// Relative addressing of this many constants.
     ConstantAt(u32),
-    InsideLinear,
-    InsidePoint,
     CubeFace,
+    AlongFace,
     OnFace,
-    /// A cube whose faces are filtered one by one; `coarse`: with weights of 8 bits.
-    SampleFaces {
-        detail: Detail,
-        coarse: bool,
-    },
-    /// Where a filter in so many dimensions has weights of 8 bits.
-    OnStep(usize),
+    FaceStep,
+    OutOfFace,
+    AcrossEdge,
+    /// A cube whose faces are filtered one by one.
+    SampleFaces(Detail),
+    Between,
+    LevelOfDetail,
+    /// The number of a texel under an address mode.
+    Index(AddressMode),
+    Texel(Texels),
+    Within(Within, Texels),
+    Filtered(Filtered),
+    ByHand(ByHand),
     /// Numbers of a model, vectors with this many components.
     Held(Model, usize),
     LinearFog,
@@ -77,20 +84,24 @@ impl Helper {
             Self::Divide => "divide".into(),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
-            Self::InsideLinear => "inside_linear".into(),
-            Self::InsidePoint => "inside_point".into(),
             Self::CubeFace => "cube_face".into(),
+            Self::AlongFace => "along_face".into(),
             Self::OnFace => "on_face".into(),
-            Self::SampleFaces { detail, coarse } => {
-                let detail = match detail {
-                    Detail::Plain => "",
-                    Detail::Bias => "_bias",
-                    Detail::LevelZero => "_level_zero",
-                };
-                let coarse = if coarse { "_coarse" } else { "" };
-                format!("sample_faces{detail}{coarse}")
-            }
-            Self::OnStep(width) => format!("on_step{width}"),
+            Self::FaceStep => "face_step".into(),
+            Self::OutOfFace => "out_of_face".into(),
+            Self::AcrossEdge => "across_edge".into(),
+            Self::SampleFaces(detail) => match detail {
+                Detail::Plain => "sample_faces".into(),
+                Detail::Bias => "sample_faces_bias".into(),
+                Detail::LevelZero => "sample_faces_level_zero".into(),
+            },
+            Self::Between => "between".into(),
+            Self::LevelOfDetail => "level_of_detail".into(),
+            Self::Index(mode) => texels::index_text(mode).0.into(),
+            Self::Texel(texels) => texels.name(),
+            Self::Within(filter, texels) => filter.name(texels),
+            Self::Filtered(filter) => filter.name(),
+            Self::ByHand(sample) => sample.name(),
             Self::Held(model, 1) => model.name().into(),
             Self::Held(model, width) => format!("{model}_vec{width}"),
             Self::LinearFog => "linear_fog".into(),
@@ -109,13 +120,15 @@ impl Helper {
             Self::Rcp(OfZero::Infinity)
             | Self::Rsq(OfZero::Infinity)
             | Self::Log2(OfZero::Infinity) => vec![Self::Infinity],
-            Self::SampleFaces { coarse, .. } => {
-                let snap = coarse.then_some(Self::OnStep(2));
-                [Self::CubeFace, Self::OnFace]
-                    .into_iter()
-                    .chain(snap)
-                    .collect()
-            }
+            Self::OnFace => vec![Self::AlongFace],
+            Self::AcrossEdge => vec![Self::CubeFace, Self::AlongFace, Self::OutOfFace],
+            Self::FaceStep => vec![Self::CubeFace, Self::OnFace],
+            Self::SampleFaces(Detail::LevelZero) => vec![Self::CubeFace, Self::OnFace],
+            Self::SampleFaces(Detail::Plain | Detail::Bias) => vec![Self::FaceStep],
+            Self::Texel(texels) => texels.needs(),
+            Self::Within(filter, texels) => filter.needs(texels),
+            Self::Filtered(filter) => filter.needs(),
+            Self::ByHand(sample) => sample.needs(),
             _ => Vec::new(),
         }
     }
@@ -186,12 +199,20 @@ impl Helper {
             Self::Lit(_) => LIT.into(),
             Self::Divide => DIVIDE.into(),
             Self::Mirror => MIRROR.into(),
-            Self::InsideLinear => INSIDE_LINEAR.into(),
-            Self::InsidePoint => INSIDE_POINT.into(),
             Self::CubeFace => CUBE_FACE.into(),
+            Self::AlongFace => ALONG_FACE.into(),
             Self::OnFace => ON_FACE.into(),
-            Self::SampleFaces { detail, coarse } => sample_faces(&self.name(), detail, coarse),
-            Self::OnStep(width) => on_step(&self.name(), width),
+            Self::FaceStep => texels::FACE_STEP.into(),
+            Self::OutOfFace => texels::OUT_OF_FACE.into(),
+            Self::AcrossEdge => texels::ACROSS_EDGE.into(),
+            Self::SampleFaces(detail) => sample_faces(&self.name(), detail),
+            Self::Between => texels::BETWEEN.into(),
+            Self::LevelOfDetail => texels::LEVEL_OF_DETAIL.into(),
+            Self::Index(mode) => texels::index_text(mode).1.into(),
+            Self::Texel(texels) => texels.text(),
+            Self::Within(filter, texels) => filter.text(texels),
+            Self::Filtered(filter) => filter.text(),
+            Self::ByHand(sample) => sample.text(),
             Self::Held(model, width) => held(&self.name(), model, width),
             Self::LinearFog => LINEAR_FOG.into(),
             Self::FogFactor => FOG_FACTOR.into(),
@@ -274,21 +295,6 @@ fn mirror(n: vec3f, e: vec3f) -> vec3f {
 }
 ";
 
-const INSIDE_LINEAR: &str = "\
-// The share of the texels of a linear filter that lie inside, along one axis of this many texels.
-fn inside_linear(u: f32, size: u32) -> f32 {
-    let x = u * f32(size);
-    return saturate(x + 0.5) * saturate(f32(size) - x + 0.5);
-}
-";
-
-const INSIDE_POINT: &str = "\
-// 1 inside, 0 outside of a texture, along one axis.
-fn inside_point(u: f32) -> f32 {
-    return f32(u >= 0.0 && u < 1.0);
-}
-";
-
 const CUBE_FACE: &str = "\
 // The face of a cube that a direction meets: +X, -X, +Y, -Y, +Z, -Z; among equals z comes before y and y before x.
 fn cube_face(direction: vec3f) -> u32 {
@@ -303,20 +309,25 @@ fn cube_face(direction: vec3f) -> u32 {
 }
 ";
 
+const ALONG_FACE: &str = "\
+// A direction along a face of a cube: to the right, down and outwards.
+fn along_face(face: u32, d: vec3f) -> vec3f {
+    switch face {
+        case 0u: { return vec3f(-d.z, -d.y, d.x); }
+        case 1u: { return vec3f(d.z, -d.y, -d.x); }
+        case 2u: { return vec3f(d.x, d.z, d.y); }
+        case 3u: { return vec3f(d.x, -d.z, -d.y); }
+        case 4u: { return vec3f(d.x, -d.y, d.z); }
+        default: { return vec3f(-d.x, -d.y, -d.z); }
+    }
+}
+";
+
 const ON_FACE: &str = "\
 // Where a direction meets the plane of a face, 0 to 1 to the right and down; far away where it points past the plane.
 fn on_face(face: u32, direction: vec3f) -> vec2f {
-    let d = direction;
-    var at: vec3f;
-    switch face {
-        case 0u: { at = vec3f(-d.z, -d.y, d.x); }
-        case 1u: { at = vec3f(d.z, -d.y, -d.x); }
-        case 2u: { at = vec3f(d.x, d.z, d.y); }
-        case 3u: { at = vec3f(d.x, -d.z, -d.y); }
-        case 4u: { at = vec3f(d.x, -d.y, d.z); }
-        default: { at = vec3f(-d.x, -d.y, -d.z); }
-    }
-    let a = abs(d);
+    let at = along_face(face, direction);
+    let a = abs(direction);
     let distance = max(at.z, max(a.x, max(a.y, a.z)) / 1048576.0);
     return select((at.xy / distance + 1.0) / 2.0, vec2f(0.5), distance == 0.0);
 }
@@ -347,34 +358,20 @@ fn linear_fog(distance: f32, start: f32, end: f32) -> f32 {
 }
 ";
 
-fn sample_faces(name: &str, detail: Detail, coarse: bool) -> String {
+fn sample_faces(name: &str, detail: Detail) -> String {
     let (parameter, about) = match detail {
         Detail::Plain => ("", ""),
         Detail::Bias => (", bias: f32", " with a bias of the level of detail"),
         Detail::LevelZero => ("", ", level 0"),
     };
-    let scale = if detail == Detail::Bias {
-        "exp2(bias) * "
-    } else {
-        ""
-    };
-    let place = if coarse {
-        "on_step2(at, textureDimensions(faces))"
-    } else {
-        "at"
-    };
     let (steps, call, last) = match detail {
-        Detail::LevelZero => (String::new(), "textureSampleLevel", "0.0".to_string()),
-        Detail::Plain | Detail::Bias => {
-            let step =
-                |d: char| format!("    let d{d} = on_face(face, direction + dpd{d}(direction));\n");
-            let of = |d: char| match scale {
-                "" => format!("d{d} - at"),
-                scale => format!("{scale}(d{d} - at)"),
-            };
-            let steps = ['x', 'y'].map(step).concat();
-            (steps, "textureSampleGrad", ['x', 'y'].map(of).join(", "))
-        }
+        Detail::LevelZero => (String::new(), "textureSampleLevel", "0.0"),
+        Detail::Plain => (face_steps(), "textureSampleGrad", "x, y"),
+        Detail::Bias => (
+            face_steps(),
+            "textureSampleGrad",
+            "exp2(bias) * x, exp2(bias) * y",
+        ),
     };
     format!(
         "// A cube as Direct3D 8 filters it, each face for itself{about}.\n\
@@ -382,17 +379,12 @@ fn sample_faces(name: &str, detail: Detail, coarse: bool) -> String {
              let face = cube_face(direction);\n    \
              let at = on_face(face, direction);\n\
              {steps}    \
-             return {call}(faces, clamped, {place}, face, {last});\n}}\n"
+             return {call}(faces, clamped, at, face, {last});\n}}\n"
     )
 }
 
-fn on_step(name: &str, width: usize) -> String {
-    format!(
-        "// The nearest place where a linear filter of a texture of this size has weights of whole 1/256.\n\
-         fn {name}(at: vec{width}f, size: vec{width}u) -> vec{width}f {{\n    \
-             let texels = vec{width}f(size);\n    \
-             return (floor((at * texels - 0.5) * 256.0 + 0.5) / 256.0 + 0.5) / texels;\n}}\n"
-    )
+fn face_steps() -> String {
+    ['x', 'y'].map(texels::face_step).concat()
 }
 
 fn held(name: &str, model: Model, width: usize) -> String {

@@ -11,7 +11,7 @@
 //! | --- | --- |
 //! | group 0, binding 0 | `vs`: the uniform block of the vertex stage |
 //! | group 0, binding 1 | `ps`: the uniform block of the pixel stage |
-//! | group 1, binding 2·n and 2·n + 1 | texture and sampler of texture stage n |
+//! | group 1, binding 2·n and 2·n + 1 | texture and, where one reads it, sampler of texture stage n |
 //! | vertex `@location(n)` | `v`n, four floats; what the stream does not hold is 0, 0, 0, 1 |
 //! | varyings | coordinate sets 0 to 7 at locations 0 to 7, colours at 8 and 9, `oFog` at 10, clip distances at 11 and 12 |
 //!
@@ -30,8 +30,9 @@
 //! - *Tests.* `texkill`, user clip planes and the alpha test come behind all sampling, in one `discard`. Stencil, depth
 //!   test, blending and colour mask are states of the pipeline.
 //! - *Cubes* are bound as six 2D layers, filtered each for itself as Direct3D 8 did, or seamless as `texture_cube`.
-//! - *Address modes.* `border` and `mirror_once` are shader code on top of a sampler that clamps: exact for one level of
-//!   the texture, for smaller levels the border is as sharp as in level 0.
+//! - *Samples texel by texel.* What a sampler of WebGPU cannot do (`border`, `mirror_once`, anisotropic filters that are the
+//!   same everywhere, weights of 8 bits) the shader does itself with `textureLoad`, with everything that is known of the
+//!   stage baked in: [`StageOptions`]. Such a stage has no sampler.
 //! - *Points* are strips of two triangles: buffers step per instance, four vertices an instance, culling off.
 //!
 //! # What is assumed
@@ -48,8 +49,8 @@
 //! # Numbers of hardware models
 //!
 //! Under a [`Model`] of few bits a function of its name brings numbers into its steps, where a register
-//! or a constant may hold others and behind arithmetic. Filters with weights of 8 bits are read where their weights are whole
-//! steps ([`StageOptions::weights`]).
+//! or a constant may hold others and behind arithmetic. Filters with weights of 8 bits are computed in the shader
+//! ([`StageOptions::weights`]).
 
 mod body;
 mod constants;
@@ -68,6 +69,7 @@ mod reflection;
 mod shown;
 #[cfg(test)]
 mod tests;
+mod texels;
 mod together;
 mod varyings;
 mod vertex;
@@ -84,7 +86,7 @@ use crate::isa::ShaderKind;
 use crate::kernel::Kernel;
 use crate::policy::Model;
 use crate::program::Program;
-use crate::texture::{AddressMode, TextureKind};
+use crate::texture::TextureKind;
 use body::Body;
 use constants::{Constant, bound_value};
 use helper::Helpers;
@@ -314,20 +316,15 @@ impl<'a> Part<'a> {
                 None => continue,
                 Some(TextureKind::Texture2D) => Dimension::D2,
                 Some(TextureKind::Volume) => Dimension::D3,
-                Some(TextureKind::Cube) if state.seamless => Dimension::Cube,
+                Some(TextureKind::Cube) if state.seamless && !state.is_by_hand() => Dimension::Cube,
                 Some(TextureKind::Cube) => Dimension::D2Array,
             };
-            let emulated = |mode| matches!(mode, AddressMode::Border | AddressMode::MirrorOnce);
-            let clamps = match dimension {
-                Dimension::D2 | Dimension::D3 => state.address.map(emulated),
-                Dimension::D2Array => [true, true, false],
-                Dimension::Cube => [false; 3],
-            };
+            let is_array = dimension == Dimension::D2Array;
+            let clamps = [is_array, is_array, false];
             let first = 2 * u32::from(stage);
-            let resources = [
-                ("texture", Resource::Texture { stage, dimension }),
-                ("sampler", Resource::Sampler { stage, clamps }),
-            ];
+            let sampler = ("sampler", Resource::Sampler { stage, clamps });
+            let resources = std::iter::once(("texture", Resource::Texture { stage, dimension }))
+                .chain((!state.is_by_hand()).then_some(sampler));
             for (binding, (what, resource)) in (first..).zip(resources) {
                 bindings.push(Binding {
                     group: 1,

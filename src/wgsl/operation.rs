@@ -4,11 +4,12 @@ use super::body::{Body, slots_read};
 use super::expression::{Binding, Expression, Value};
 use super::helper::{Detail, Helper};
 use super::layout::Field;
+use super::texels::{Argument, ByHand};
 use crate::isa::WriteMask;
 use crate::isa::operand::XYZW;
 use crate::kernel::{Op, Step};
 use crate::policy::Model;
-use crate::texture::{AddressMode, Filter, TextureKind};
+use crate::texture::TextureKind;
 
 impl Body<'_> {
     /// The value that a step computes, before its result modifier: as many components as the mask has, or a scalar.
@@ -228,63 +229,25 @@ impl Body<'_> {
         Value::Parts(step.mask.components().map(part).collect())
     }
 
-    /// A sample, with the address modes that WebGPU does not have.
+    /// A sample.
     pub(super) fn sample(&mut self, step: &Step, stage: u8) {
         let state = self.options.stages[usize::from(stage) & 7];
-        let (Some(kind), Some(_)) = (state.texture, step.sources.first()) else {
+        if state.texture.is_none() || step.sources.is_empty() {
             let black = Expression::new("vec4f(0.0, 0.0, 0.0, 1.0)", 4);
             return self.sampled(step, &black);
-        };
-        let count = state.coordinates();
+        }
         let slots = slots_read(step.op, step.mask, 0, self.options);
         // Coordinates are named x, y and z, whatever register holds them.
-        let at = self.operand_named(step, 0, slots, XYZW).spread(count);
-        let axes = match kind {
-            TextureKind::Cube => &[][..],
-            _ => &state.address[..count],
+        let at = self.operand_named(step, 0, slots, XYZW);
+        let at = at.spread(state.coordinates()).text;
+        let by_hand = state
+            .is_by_hand()
+            .then(|| state.by_hand(self.options.level_zero));
+        let texel = match by_hand.flatten() {
+            Some(sample) => self.texel_by_hand(stage, sample, at),
+            None => self.texel(stage, at),
         };
-        let border = axes.contains(&AddressMode::Border);
-        let mirrored = axes.contains(&AddressMode::MirrorOnce);
-        let in_parts = mirrored && axes.iter().any(|mode| *mode != AddressMode::MirrorOnce);
-        let coarse = state.coarse_filter() && kind != TextureKind::Cube;
-        let open = border || in_parts || coarse;
-        let mut at = at;
-        if open {
-            self.push("{");
-            self.push(format!("    let at = {};", at.text));
-            at = Expression::new("at", count);
-        }
-        if mirrored && !in_parts {
-            at = at.map("abs");
-        } else if in_parts {
-            let parts = axes.iter().zip(XYZW).map(|(mode, axis)| match mode {
-                AddressMode::MirrorOnce => format!("abs(at.{axis})"),
-                _ => format!("at.{axis}"),
-            });
-            at = Expression::call(&format!("vec{count}f"), &parts.collect::<Vec<_>>(), count);
-        }
-        let on_step = coarse.then(|| {
-            let snap = self.helpers.call(Helper::OnStep(count));
-            let place = format!("{snap}({}, textureDimensions(texture{stage}))", at.text);
-            self.push(format!("    let on_step = {place};"));
-            "on_step"
-        });
-        let mut texel = self.texel(stage, &at, on_step);
-        if border {
-            let inside = self.inside(stage, axes, state.filter, on_step.unwrap_or("at"));
-            self.push(format!("    let inside = {inside};"));
-            let color = self.uniform(Field::Border(stage));
-            texel = Expression::new(
-                format!("(inside * {} + (1.0 - inside) * {color})", texel.text),
-                4,
-            );
-        }
-        let before = self.mark();
         self.sampled(step, &texel);
-        if open {
-            self.indent_from(before);
-            self.push("}");
-        }
     }
 
     /// Assigns a sample.
@@ -294,59 +257,44 @@ impl Body<'_> {
         self.assign(step.destination, step.mask, value);
     }
 
-    /// The call that reads a texture. `on_step`: where it is read if the weights of filters have 8 bits; the coordinates
-    /// still choose the level.
-    fn texel(&mut self, stage: u8, at: &Expression, on_step: Option<&str>) -> Expression {
+    /// The call that reads a texture with its sampler.
+    fn texel(&mut self, stage: u8, at: String) -> Expression {
         let state = self.options.stages[usize::from(stage) & 7];
         let detail = match (self.options.level_zero, state.lod_bias) {
             (true, _) => Detail::LevelZero,
             (false, true) => Detail::Bias,
             (false, false) => Detail::Plain,
         };
-        let function = match (state.separate_faces(), detail, on_step) {
-            (true, ..) => self.helpers.call(Helper::SampleFaces {
-                detail,
-                coarse: state.coarse_filter(),
-            }),
-            (false, Detail::LevelZero, _) => "textureSampleLevel".into(),
-            (false, _, Some(_)) => "textureSampleGrad".into(),
-            (false, Detail::Bias, None) => "textureSampleBias".into(),
-            (false, Detail::Plain, None) => "textureSample".into(),
+        let faces = state.texture == Some(TextureKind::Cube) && !state.seamless;
+        let function = match detail {
+            _ if faces => self.helpers.call(Helper::SampleFaces(detail)),
+            Detail::LevelZero => "textureSampleLevel".into(),
+            Detail::Bias => "textureSampleBias".into(),
+            Detail::Plain => "textureSample".into(),
         };
-        let mut arguments = vec![
-            format!("texture{stage}"),
-            format!("sampler{stage}"),
-            on_step.unwrap_or(&at.text).to_string(),
-        ];
-        let bias = (detail == Detail::Bias).then(|| self.uniform(Field::LodBias(stage)));
-        match (detail, on_step, bias) {
-            (Detail::LevelZero, ..) if !state.separate_faces() => arguments.push("0.0".into()),
-            (Detail::Plain | Detail::Bias, Some(_), bias) => {
-                let scale = bias.map_or(String::new(), |bias| format!("exp2({bias}) * "));
-                arguments.extend(["dpdx", "dpdy"].map(|d| format!("{scale}{d}({})", at.text)));
-            }
-            (_, None, bias) => arguments.extend(bias),
-            _ => {}
+        let mut arguments = vec![format!("texture{stage}"), format!("sampler{stage}"), at];
+        match detail {
+            Detail::LevelZero if !faces => arguments.push("0.0".into()),
+            Detail::Bias => arguments.push(self.uniform(Field::LodBias(stage))),
+            Detail::LevelZero | Detail::Plain => {}
         }
         Expression::call(&function, &arguments, 4)
     }
 
-    /// The share of a sample that lies inside the texture along the axes that have a border.
-    fn inside(&mut self, stage: u8, axes: &[AddressMode], filter: Filter, at: &str) -> String {
-        let factors = axes
-            .iter()
-            .zip(XYZW)
-            .filter(|(mode, _)| **mode == AddressMode::Border);
-        let factors: Vec<String> = factors
-            .map(|(_, axis)| match filter {
-                Filter::Point => format!("{}({at}.{axis})", self.helpers.call(Helper::InsidePoint)),
-                _ => format!(
-                    "{}({at}.{axis}, textureDimensions(texture{stage}).{axis})",
-                    self.helpers.call(Helper::InsideLinear)
-                ),
-            })
-            .collect();
-        factors.join(" * ")
+    /// The call that reads it texel by texel.
+    fn texel_by_hand(&mut self, stage: u8, sample: ByHand, at: String) -> Expression {
+        let state = self.options.stages[usize::from(stage) & 7];
+        let function = self.helpers.call(Helper::ByHand(sample));
+        let mut arguments = vec![format!("texture{stage}"), at];
+        for argument in sample.takes() {
+            arguments.push(match argument {
+                Argument::Bias => self.uniform(Field::LodBias(stage)),
+                // No texture has more levels.
+                Argument::Largest => state.max_mip_level.min(31).to_string(),
+                Argument::Border => self.uniform(Field::Border(stage)),
+            });
+        }
+        Expression::call(&function, &arguments, 4)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::exec::STAGES;
 use crate::isa::ShaderKind;
 use crate::kernel::Slot;
 use crate::raster::{Compare, FogDistance, FogMode, RenderState, ShadeMode};
-use crate::texture::{AddressMode, Filter, TextureKind, Weights};
+use crate::texture::{AddressMode, Filter, MipFilter, TextureKind, Weights};
 
 /// What a translation is made for. The default is Direct3D 8's default state with a 2D texture in every stage.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,6 +157,12 @@ impl Observed {
 }
 
 /// One texture stage.
+///
+/// A sampler of WebGPU reads the texture where it can do what Direct3D 8 does; then address modes, filters and levels are
+/// its own business, and nothing of them is baked in. Else there is no sampler, and the shader puts samples together itself,
+/// texel by texel: for `border` and `mirror_once`, for weights of 8 bits, for anisotropic filters, where λ is to tell
+/// magnified from minified before the largest level limits it, and where a bias may put λ in the middle between two levels,
+/// which is to go to the smaller one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageOptions {
     /// The shape of the texture that is bound; a stage without one samples opaque black.
@@ -164,17 +170,26 @@ pub struct StageOptions {
     /// Whether filters on a cube reach across its edges. Direct3D 8 parts stayed inside the face: without it a cube
     /// is bound as an array of six 2D layers with a sampler that clamps.
     pub seamless: bool,
-    /// Address modes of u, v and w. `border` and `mirror_once` have no sampler in WebGPU and become shader code on
-    /// top of one that clamps; the others are the sampler's business.
+    /// Address modes of u, v and w.
     pub address: [AddressMode; 3],
-    /// How texels are combined: what a border looks like depends on it.
-    pub filter: Filter,
+    /// The filter where the texture is magnified.
+    pub mag: Filter,
+    /// The filter where it is minified.
+    pub min: Filter,
+    /// How levels are chosen.
+    pub mip: MipFilter,
+    /// `D3DTSS_MAXMIPLEVEL`.
+    pub max_mip_level: u32,
+    /// `D3DTSS_MAXANISOTROPY`, 1 to 16.
+    pub max_anisotropy: u32,
     /// Whether `D3DTSS_MIPMAPLODBIAS` is a field of the uniform block; else it is 0.
     pub lod_bias: bool,
     /// Whether texels may lie outside of −1…1.
     pub wide_texels: bool,
-    /// How exact the weights of linear filters are. Those of 8 bits are made by reading where the weights are whole steps,
-    /// in the size of level 0; smaller levels, and cubes that are seamless, have the weights of the GPU.
+    /// Whether all channels are bytes from 0 to 1 ([`crate::texture::Format::is_packed`]): where samples are put together
+    /// texel by texel, filters then compute with whole numbers.
+    pub byte_texels: bool,
+    /// How exact the weights of linear filters are.
     pub weights: Weights,
 }
 
@@ -184,9 +199,14 @@ impl Default for StageOptions {
             texture: Some(TextureKind::Texture2D),
             seamless: false,
             address: [AddressMode::Wrap; 3],
-            filter: Filter::Linear,
+            mag: Filter::Linear,
+            min: Filter::Linear,
+            mip: MipFilter::None,
+            max_mip_level: 0,
+            max_anisotropy: 1,
             lod_bias: false,
             wide_texels: false,
+            byte_texels: false,
             weights: Weights::Full,
         }
     }
@@ -199,16 +219,6 @@ impl StageOptions {
             texture,
             ..Self::default()
         }
-    }
-
-    /// Whether the texture is a cube of six separate faces.
-    pub(super) fn separate_faces(&self) -> bool {
-        self.texture == Some(TextureKind::Cube) && !self.seamless
-    }
-
-    /// Whether a filter has weights of fewer bits than that of the GPU may have.
-    pub(super) fn coarse_filter(&self) -> bool {
-        self.filter == Filter::Linear && self.weights == Weights::EightBits
     }
 
     /// How many components of the coordinates a sample takes.

@@ -12,6 +12,7 @@ mod matching;
 mod models;
 mod pictures;
 mod registers;
+mod sampling;
 mod states;
 #[path = "../conformance/suite.rs"]
 mod suite;

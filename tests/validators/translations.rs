@@ -14,7 +14,7 @@ use texcrd::policy::Dialect;
 use texcrd::program::Program;
 use texcrd::raster::{Compare, FogDistance, FogMode};
 use texcrd::scene::{DirectoryResolver, LoadOptions};
-use texcrd::texture::{AddressMode, Filter, Texture, TextureKind, Weights};
+use texcrd::texture::{AddressMode, Filter, MipFilter, Texture, TextureKind, Weights};
 use texcrd::wgsl::{Fog, Options, Points, Stage, StageOptions, Translation, translate};
 
 /// A translation and where it came from.
@@ -132,7 +132,11 @@ fn cases() -> Vec<Named> {
                 texture: stage.texture.as_ref().map(Texture::kind),
                 seamless: stage.sampler.seamless,
                 address: stage.sampler.address,
-                filter: stage.sampler.mag,
+                mag: stage.sampler.mag,
+                min: stage.sampler.min,
+                mip: stage.sampler.mip,
+                max_mip_level: stage.sampler.max_mip_level,
+                max_anisotropy: stage.sampler.max_anisotropy,
                 lod_bias: stage.sampler.lod_bias != 0.0,
                 ..StageOptions::default()
             }),
@@ -199,7 +203,12 @@ fn options(random: &mut Random, made: &Generated) -> Options {
             true => random.pick(&MODES).unwrap(),
             false => AddressMode::Wrap,
         }),
-        filter: random.pick(&[Filter::Point, Filter::Linear]).unwrap(),
+        mag: random.pick(Filter::ALL).unwrap(),
+        min: random.pick(Filter::ALL).unwrap(),
+        mip: random.pick(MipFilter::ALL).unwrap(),
+        max_mip_level: random.pick(&[0, 1]).unwrap(),
+        max_anisotropy: random.pick(&[1, 4]).unwrap(),
+        byte_texels: random.chance(50),
         lod_bias: random.chance(20),
         wide_texels: random.chance(20),
         weights: match random.chance(20) {

@@ -132,7 +132,11 @@ impl Engine {
             stages: draw.stages.each_ref().map(|stage| StageOptions {
                 seamless: stage.sampler.seamless,
                 address: stage.sampler.address,
-                filter: stage.sampler.mag,
+                mag: stage.sampler.mag,
+                min: stage.sampler.min,
+                mip: stage.sampler.mip,
+                max_mip_level: stage.sampler.max_mip_level,
+                max_anisotropy: stage.sampler.max_anisotropy,
                 ..StageOptions::with_texture(texture(stage).map(Texture::kind))
             }),
             ..Options::default()

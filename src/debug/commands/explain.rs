@@ -203,8 +203,8 @@ fn last_level(session: &Session<'_>, run: &Run<'_>, pixels: &[String; 4]) -> Tex
         format!("stage {}, line {line}", sample.stage),
         Style::Strong,
     ));
-    for (pixel, level) in pixels.iter().zip(sample.level) {
-        text.line(format!("   {pixel:<20} {}", sample::level_text(level)));
+    for (pixel, detail) in pixels.iter().zip(sample.detail) {
+        text.line(format!("   {pixel:<20} {}", sample::detail_text(&detail)));
     }
     text
 }

@@ -180,11 +180,11 @@ fn json_moment(run: &Run<'_>, moment: &Moment) -> String {
 
 fn json_sample(run: &Run<'_>, sample: &Sample) -> String {
     let lane = run.lane & 3;
-    let (coordinates, level) = (sample.coordinates[lane], sample.level[lane]);
+    let (coordinates, detail) = (sample.coordinates[lane], sample.detail[lane]);
     let stage = run.environment.stages.get(sample.stage);
     let bound = stage.and_then(|stage| Some((stage.texture?, &stage.sampler)));
     let texels = bound.map_or(Vec::new(), |(texture, sampler)| {
-        let taps = footprint(texture, sampler, coordinates, level).taps;
+        let taps = footprint(texture, sampler, coordinates, detail).taps;
         let json = |tap: &Tap| {
             let texel = tap
                 .texel
@@ -205,7 +205,7 @@ fn json_sample(run: &Run<'_>, sample: &Sample) -> String {
         "{{\"stage\": {}, \"coordinates\": {}, \"level\": {}, \"texels\": [{}]}}",
         sample.stage,
         json_vector(&coordinates),
-        json_number(level),
+        json_number(detail.lambda()),
         texels.join(", ")
     )
 }
@@ -273,8 +273,9 @@ fn csv(runs: &[Run<'_>]) -> String {
                 Some(sample) => {
                     let lane = run.lane & 3;
                     cells.push(sample.stage.to_string());
-                    let numbers = sample.coordinates[lane].iter().chain([&sample.level[lane]]);
-                    cells.extend(numbers.map(|x| number_text(*x)));
+                    let level = sample.detail[lane].lambda();
+                    let numbers = sample.coordinates[lane].into_iter().chain([level]);
+                    cells.extend(numbers.map(number_text));
                 }
                 None => cells.extend(std::iter::repeat_n(String::new(), 5)),
             }

@@ -7,7 +7,7 @@ use crate::debug::run::Run;
 use crate::debug::text::{Style, Text};
 use crate::exec::Stage;
 use crate::isa::WriteMask;
-use crate::texture::{CUBE_FACES, Tap, Texture, TextureKind, footprint};
+use crate::texture::{self, CUBE_FACES, Tap, Texture, TextureKind, footprint};
 
 /// The texels of a sample that are told one by one.
 const MOST_TEXELS: usize = 4;
@@ -34,17 +34,17 @@ pub(super) fn lines(run: &Run<'_>, sample: &Sample, detail: Detail) -> Text {
     }
     let used = used_coordinates(texture);
     let [u, v, w] = coordinates;
-    let level = sample.level[run.lane & 3];
+    let covered = sample.detail[run.lane & 3];
     text.line(remark(
         format!(
             "stage {stage}: {} at ({}), {}",
             texture_text(texture),
             numbers([u, v, w, 0.0], used),
-            level_text(level),
+            detail_text(&covered),
         ),
         Style::Plain,
     ));
-    let mut taps = footprint(texture, sampler, coordinates, level).taps;
+    let mut taps = footprint(texture, sampler, coordinates, covered).taps;
     taps.retain(|tap| tap.weight > 0.0);
     // The heaviest first; of equally heavy ones the order of reading stays.
     taps.sort_by(|a, b| b.weight.total_cmp(&a.weight));
@@ -91,12 +91,17 @@ pub(super) fn texture_text(texture: &Texture) -> String {
     format!("{} {size} {}", texture.kind(), texture.format())
 }
 
-/// The level of detail in words.
-pub(super) fn level_text(level: f32) -> String {
+/// The level of detail in words, and the probes where there are several.
+pub(super) fn detail_text(detail: &texture::Detail) -> String {
+    let level = detail.lambda();
     if level == f32::NEG_INFINITY {
         return "the same all over the quad".to_string();
     }
-    format!("level of detail {}", number_text(level))
+    let text = format!("level of detail {}", number_text(level));
+    match detail.probes() {
+        1 => text,
+        probes => format!("{text}, {probes} probes"),
+    }
 }
 
 /// One texel with its share.

@@ -152,7 +152,9 @@ impl<'a> Writer<'a> {
         let clamps = bindings.iter().find_map(|binding| match binding.resource {
             Resource::Sampler { stage, clamps } if stage == number => Some(clamps),
             _ => None,
-        })?;
+        });
+        // What is read texel by texel has none.
+        let clamps = clamps.unwrap_or_default();
         let (texture, sampler) = program.textures.get(usize::from(number)).copied()??;
         let same = |view: &View<'_>| {
             std::ptr::eq(view.texture, texture)

@@ -77,7 +77,7 @@ pub(super) fn stage(view: &View<'_>, stage: usize, hex: bool) -> Vec<Item> {
             "coordinates",
             values::with_marks(&coordinates, hex, &[]),
         ));
-        let level = match sample.level[lane] {
+        let level = match sample.detail[lane].lambda() {
             level if level == f32::NEG_INFINITY => {
                 "of the largest: the same place in all pixels".to_string()
             }

@@ -1,29 +1,30 @@
 //! Sampling: level of detail, address modes, filters.
 //!
 //! The order of the arithmetic is fixed, so that results are the same everywhere: `lerp(a, b, f) = a + f·(b − a)`,
-//! along x first, then y, then z, then between mip levels. Four-byte texels are filtered as codes 0 to 255 and divided
-//! by 255 once at the end.
+//! along x first, then y, then z, then between mip levels; probes of an anisotropic filter are summed from one end to the
+//! other. Four-byte texels are filtered as codes 0 to 255 and divided by 255 once at the end.
 //!
 //! Weights of 8 bits are compiled apart (`COARSE`), so that full ones need not ask for them.
 //!
-//! A sample goes through three steps, each used by every way to sample: [`Choice`] (filter and levels from λ),
-//! [`Position`] (face and coordinate from the vector), [`Texel taps`](Taps) (which texels of a level, how much of each).
+//! A sample goes through four steps, each used by every way to sample: [`Detail`] (λ and probes from the derivatives),
+//! [`Choice`] (filter and levels from λ), [`Position`] (face and coordinate from the vector), [`Texel taps`](Taps) (which
+//! texels of a level, how much of each).
 
+mod detail;
 mod footprint;
 #[cfg(test)]
 mod tests;
 
-use super::cube::{AcrossEdge, across_edge, direction_to_face, project_onto};
+use super::cube::{AcrossEdge, across_edge, direction_to_face, face_to_direction};
 use super::storage::{FloatStore, Level, PackedStore, Store, Texels};
 use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind, Weights};
 
+pub(crate) use detail::RATIO_SLACK;
+pub use detail::{Detail, details};
 pub use footprint::{Footprint, Tap, footprint};
 
 /// What a stage without a texture reads.
 const UNBOUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
-
-/// λ of a lane that has no neighbours: magnified, however large the bias.
-const NO_DERIVATIVES: f32 = f32::NEG_INFINITY;
 
 /// A coordinate that arithmetic can be done with: NaN is 0, infinities are the largest finite numbers.
 #[inline(always)]
@@ -61,16 +62,17 @@ struct Choice {
 }
 
 impl Choice {
-    fn new<const COARSE: bool>(texture: &Texture, sampler: &Sampler, lambda: f32) -> Self {
-        let lambda = if lambda.is_nan() { 0.0 } else { lambda };
-        let filter = if lambda > 0.0 {
+    fn new<const COARSE: bool>(texture: &Texture, sampler: &Sampler, detail: &Detail) -> Self {
+        let filter = if detail.lambda > 0.0 {
             sampler.min
         } else {
             sampler.mag
         };
         let last = texture.levels.len() - 1;
         let largest = last.min(sampler.max_mip_level as usize);
-        let level = lambda.clamp(largest as f32, last as f32);
+        let level = detail.level();
+        let level = if level.is_nan() { 0.0 } else { level };
+        let level = level.clamp(largest as f32, last as f32);
         let only = |level: usize| Self {
             filter,
             first: level,
@@ -94,7 +96,9 @@ impl Choice {
 
     /// Whether λ makes no difference, so that it need not be found.
     fn is_fixed(texture: &Texture, sampler: &Sampler) -> bool {
-        sampler.mag == sampler.min && (sampler.mip == MipFilter::None || texture.levels.len() == 1)
+        sampler.mag.is_linear() == sampler.min.is_linear()
+            && sampler.most_probes() == 1
+            && (sampler.mip == MipFilter::None || texture.levels.len() == 1)
     }
 
     /// Levels and their shares.
@@ -127,6 +131,20 @@ impl Position {
             }
         }
     }
+
+    /// The place of a probe. On a cube it is where the direction through its place in the plane of the face leads, so that
+    /// one beyond the edge reads the neighbouring face.
+    fn of_probe(self, kind: TextureKind, along: [f32; 3], share: f32) -> Self {
+        let place = std::array::from_fn(|axis| self.uvw[axis] + along[axis] * share);
+        if kind == TextureKind::Cube {
+            Self::new(
+                kind,
+                face_to_direction(self.face, [finite(place[0]), finite(place[1])]),
+            )
+        } else {
+            Self::new(kind, place)
+        }
+    }
 }
 
 /// An index that stands for the border colour.
@@ -151,9 +169,10 @@ impl Pair {
     fn new<const COARSE: bool>(u: f32, n: u32, mode: AddressMode, filter: Filter) -> Self {
         let (i, f) = split::<COARSE>(u, n, filter);
         let near = address(i, n, mode);
-        let far = match filter {
-            Filter::Point => near,
-            Filter::Linear => address(i + 1, n, mode),
+        let far = if filter.is_linear() {
+            address(i + 1, n, mode)
+        } else {
+            near
         };
         Self { near, far, f }
     }
@@ -176,13 +195,12 @@ fn split<const COARSE: bool>(u: f32, n: u32, filter: Filter) -> (i32, f32) {
     // Far beyond any texel that a float can tell apart from its neighbour; keeps i + 1 and −1 − i in range.
     const FAR: f32 = 1_073_741_824.0;
     let x = u * n as f32;
-    match filter {
-        Filter::Point => (floor(x.clamp(-FAR, FAR)), 0.0),
-        Filter::Linear => {
-            let x = (x - 0.5).clamp(-FAR, FAR);
-            let i = floor(x);
-            (i, share::<COARSE>(x - i as f32))
-        }
+    if filter.is_linear() {
+        let x = (x - 0.5).clamp(-FAR, FAR);
+        let i = floor(x);
+        (i, share::<COARSE>(x - i as f32))
+    } else {
+        (floor(x.clamp(-FAR, FAR)), 0.0)
     }
 }
 
@@ -239,7 +257,7 @@ fn taps<const COARSE: bool>(
         TextureKind::Volume => [pair(0, u), pair(1, v), pair(2, w)],
         TextureKind::Cube => {
             if sampler.seamless
-                && filter == Filter::Linear
+                && filter.is_linear()
                 && let Some(edge) = edge_taps::<COARSE>(level, position)
             {
                 return edge;
@@ -438,23 +456,52 @@ impl<'a, S: Store, const COARSE: bool> Reader<'a, S, COARSE> {
         )
     }
 
+    /// One probe, times the scale of the store.
     #[inline(always)]
-    fn sample(&self, kind: TextureKind, coord: [f32; 3], choice: Choice) -> [f32; 4] {
-        let position = Position::new(kind, coord);
-        let mut value = self.level(kind, choice.first, position, choice.filter);
+    fn probe(&self, kind: TextureKind, position: Position, choice: Choice) -> [f32; 4] {
+        let value = self.level(kind, choice.first, position, choice.filter);
         if choice.blend > 0.0 {
-            value = lerp(
-                value,
-                self.level(kind, choice.second, position, choice.filter),
-                choice.blend,
-            );
+            let second = self.level(kind, choice.second, position, choice.filter);
+            lerp(value, second, choice.blend)
+        } else {
+            value
         }
+    }
+
+    #[inline(always)]
+    fn sample(&self, kind: TextureKind, coord: [f32; 3], detail: &Detail) -> [f32; 4] {
+        let choice = Choice::new::<COARSE>(self.texture, self.sampler, detail);
+        let position = Position::new(kind, coord);
+        let value = if detail.probes > 1 {
+            self.probes(kind, position, choice, detail)
+        } else {
+            self.probe(kind, position, choice)
+        };
         value.map(|value| value / S::SCALE)
     }
 
-    fn sample_at(&self, coord: [f32; 3], lod: f32) -> [f32; 4] {
-        let choice = Choice::new::<COARSE>(self.texture, self.sampler, lod);
-        self.sample(self.texture.kind, coord, choice)
+    /// The mean of all probes. Not inlined: few samples have more than one.
+    #[inline(never)]
+    fn probes(
+        &self,
+        kind: TextureKind,
+        position: Position,
+        choice: Choice,
+        detail: &Detail,
+    ) -> [f32; 4] {
+        let mut sum = [0.0; 4];
+        for share in detail.places() {
+            let place = position.of_probe(kind, detail.along, share);
+            let value = self.probe(kind, place, choice);
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += value;
+            }
+        }
+        sum.map(|sum| sum / f32::from(detail.probes))
+    }
+
+    fn sample_at(&self, coord: [f32; 3], detail: &Detail) -> [f32; 4] {
+        self.sample(self.texture.kind, coord, detail)
     }
 
     fn sample_lanes<const N: usize>(&self, coords: &[[f32; N]; 3], out: &mut [[f32; N]; 4]) {
@@ -480,15 +527,14 @@ impl<'a, S: Store, const COARSE: bool> Reader<'a, S, COARSE> {
         let fixed = Choice::is_fixed(texture, sampler);
         for first in (0..N).step_by(4) {
             let end = N.min(first + 4);
-            let lambdas = if fixed || end - first < 4 {
-                [NO_DERIVATIVES; 4]
+            let found = if fixed || end - first < 4 {
+                [Detail::NONE; 4]
             } else {
                 let quad = std::array::from_fn(|lane| at(first + lane));
-                levels_of_detail(texture, sampler, &quad)
+                details(texture, sampler, &quad)
             };
-            for (lane, lambda) in (first..end).zip(lambdas) {
-                let choice = Choice::new::<COARSE>(texture, sampler, lambda);
-                let value = self.sample(kind, at(lane), choice);
+            for (lane, detail) in (first..end).zip(&found) {
+                let value = self.sample(kind, at(lane), detail);
                 for (channel, value) in out.iter_mut().zip(value) {
                     channel[lane] = value;
                 }
@@ -521,7 +567,7 @@ macro_rules! read {
 ///
 /// `coords` are u, v, w (2D ignores w; a cube takes a direction of any length); `out` receives r, g, b, a.
 /// Each four lanes from 4q on are the pixels (x, y), (x+1, y), (x, y+1), (x+1, y+1) of a quad, from which
-/// their levels of detail follow ([`levels_of_detail`]). Lanes that do not fill a quad (N = 1) have no derivatives: they are magnified and read
+/// their detail follows ([`details`]). Lanes that do not fill a quad (N = 1) have no derivatives: they are magnified and read
 /// the largest level that the sampler allows.
 /// Without a texture every lane reads (0, 0, 0, 1), as Direct3D 8 does for an empty stage.
 /// Any coordinate is allowed: NaN counts as 0, infinities as the largest finite number.
@@ -538,69 +584,18 @@ pub fn sample_quads<const N: usize>(
     read!(texture, sampler, sample_lanes(coords, out))
 }
 
-/// Samples a texture at one coordinate with a given level of detail λ (no bias is added to it).
+/// Samples a texture at one coordinate with a given detail, or a given λ (no bias is added to it).
 ///
 /// λ > 0 takes the minification filter. Coordinates and results as in [`sample_quads`].
 pub fn sample_at(
     texture: Option<&Texture>,
     sampler: &Sampler,
     coord: [f32; 3],
-    lod: f32,
+    detail: impl Into<Detail>,
 ) -> [f32; 4] {
     let Some(texture) = texture else {
         return UNBOUND;
     };
-    read!(texture, sampler, sample_at(coord, lod))
-}
-
-/// λ of each pixel of a 2×2 quad, bias included: log2 of the longer of its two steps, in texels of level 0.
-///
-/// A pixel's steps are those to the other pixel of its row (lanes 0 and 1, 2 and 3) and to the other one of its column.
-/// On a cube both are projected onto the face of the pixel itself, so that a quad across an edge has the derivative of one
-/// plane; a pixel behind that plane counts as very far.
-/// −∞ where the coordinate does not change; never NaN unless the bias is.
-pub fn levels_of_detail(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4]) -> [f32; 4] {
-    match texture.kind {
-        TextureKind::Texture2D => {
-            let flat = quad.map(|coord| [finite(coord[0]), finite(coord[1]), 0.0]);
-            levels_on_one_plane(texture, sampler, &flat)
-        }
-        TextureKind::Volume => {
-            levels_on_one_plane(texture, sampler, &quad.map(|coord| coord.map(finite)))
-        }
-        TextureKind::Cube => {
-            let on = |face: usize| {
-                let flat = quad.map(|direction| {
-                    let [u, v] = project_onto(face, direction);
-                    [u, v, 0.0]
-                });
-                levels_on_one_plane(texture, sampler, &flat)
-            };
-            let faces = quad.map(|direction| direction_to_face(direction).0);
-            if faces == [faces[0]; 4] {
-                return on(faces[0]);
-            }
-            std::array::from_fn(|lane| on(faces[lane])[lane])
-        }
-    }
-}
-
-/// [`levels_of_detail`] of coordinates that can be subtracted.
-fn levels_on_one_plane(texture: &Texture, sampler: &Sampler, quad: &[[f32; 3]; 4]) -> [f32; 4] {
-    let size = texture.levels[0].size.map(|edge| edge as f32);
-    let squared_step = |from: usize, to: usize| {
-        let mut sum = 0.0;
-        for axis in 0..3 {
-            let step = (quad[to][axis] - quad[from][axis]) * size[axis];
-            sum += step * step;
-        }
-        sum
-    };
-    let rows = [squared_step(0, 1), squared_step(2, 3)];
-    let columns = [squared_step(0, 2), squared_step(1, 3)];
-    // log2 of a root is half the log2.
-    std::array::from_fn(|lane| {
-        let longer: f32 = f32::max(rows[lane / 2], columns[lane % 2]);
-        0.5 * longer.log2() + sampler.lod_bias
-    })
+    let detail = detail.into();
+    read!(texture, sampler, sample_at(coord, &detail))
 }

@@ -71,7 +71,7 @@ pub(super) fn draw(
         texture,
         &bound.sampler,
         sample.coordinates[lane],
-        sample.level[lane],
+        sample.detail[lane],
     );
     let (room, text) = divide(area);
     pictures.extend(picture(screen, buf, room, texture, &found));
@@ -152,7 +152,7 @@ fn lines(
         Line::from(format!("at {}", coordinates.join(" "))),
         Line::from(format!(
             "lod {}  {}",
-            short(sample.level[lane]),
+            short(sample.detail[lane].lambda()),
             levels.join(" ")
         )),
     ];

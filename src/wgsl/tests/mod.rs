@@ -7,3 +7,4 @@ mod opcodes;
 mod readable;
 mod show;
 mod support;
+mod texels;

@@ -4,7 +4,7 @@ use super::support::{Shader, validate};
 use crate::isa::{Opcode, Version};
 use crate::kernel;
 use crate::policy::Model;
-use crate::texture::{AddressMode, TextureKind, Weights};
+use crate::texture::TextureKind;
 use crate::wgsl::{Options, StageOptions};
 
 fn translated(model: Model, listing: &str, options: &Options) -> String {
@@ -114,45 +114,6 @@ fn registers_of_the_radeon_are_rounded_whoever_writes_them() {
     );
     assert!(source.contains("r0 = r200_vec4(r0 + r2);"), "{source}");
     assert!(source.contains("r200_vec3(in.t1"), "{source}");
-}
-
-#[test]
-fn filters_of_eight_bits_read_where_weights_are_whole_steps() {
-    let with = |texture, address, lod_bias, level_zero| {
-        let mut options = Options {
-            level_zero,
-            ..Options::default()
-        };
-        options.stages[0] = StageOptions {
-            weights: Weights::EightBits,
-            address: [address; 3],
-            lod_bias,
-            ..StageOptions::with_texture(Some(texture))
-        };
-        translated(Model::Gf3, "ps.1.1\ntex t0\nmov r0, t0\n", &options)
-    };
-    for texture in [
-        TextureKind::Texture2D,
-        TextureKind::Volume,
-        TextureKind::Cube,
-    ] {
-        for address in [
-            AddressMode::Wrap,
-            AddressMode::Border,
-            AddressMode::MirrorOnce,
-        ] {
-            for (lod_bias, level_zero) in
-                [(false, false), (true, false), (false, true), (true, true)]
-            {
-                let source = with(texture, address, lod_bias, level_zero);
-                assert!(
-                    source.contains("on_step") && !source.contains("textureSample("),
-                    "{source}"
-                );
-                assert_eq!(source.contains("dpdx"), !level_zero, "{source}");
-            }
-        }
-    }
 }
 
 /// Every instruction with every source modifier gives a module that is valid under every model.

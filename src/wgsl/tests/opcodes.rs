@@ -272,7 +272,8 @@ fn address_modes_without_sampler() {
                 for filter in [Filter::Point, Filter::Linear] {
                     let stage = StageOptions {
                         address: [u, v, u],
-                        filter,
+                        mag: filter,
+                        min: filter,
                         ..StageOptions::with_texture(Some(kind))
                     };
                     let options = Options {

@@ -65,30 +65,42 @@ fn cube_face(direction: vec3f) -> u32 {
     return select(0u, 1u, direction.x < 0.0);
 }
 
+// A direction along a face of a cube: to the right, down and outwards.
+fn along_face(face: u32, d: vec3f) -> vec3f {
+    switch face {
+        case 0u: { return vec3f(-d.z, -d.y, d.x); }
+        case 1u: { return vec3f(d.z, -d.y, -d.x); }
+        case 2u: { return vec3f(d.x, d.z, d.y); }
+        case 3u: { return vec3f(d.x, -d.z, -d.y); }
+        case 4u: { return vec3f(d.x, -d.y, d.z); }
+        default: { return vec3f(-d.x, -d.y, -d.z); }
+    }
+}
+
 // Where a direction meets the plane of a face, 0 to 1 to the right and down; far away where it points past the plane.
 fn on_face(face: u32, direction: vec3f) -> vec2f {
-    let d = direction;
-    var at: vec3f;
-    switch face {
-        case 0u: { at = vec3f(-d.z, -d.y, d.x); }
-        case 1u: { at = vec3f(d.z, -d.y, -d.x); }
-        case 2u: { at = vec3f(d.x, d.z, d.y); }
-        case 3u: { at = vec3f(d.x, -d.z, -d.y); }
-        case 4u: { at = vec3f(d.x, -d.y, d.z); }
-        default: { at = vec3f(-d.x, -d.y, -d.z); }
-    }
-    let a = abs(d);
+    let at = along_face(face, direction);
+    let a = abs(direction);
     let distance = max(at.z, max(a.x, max(a.y, a.z)) / 1048576.0);
     return select((at.xy / distance + 1.0) / 2.0, vec2f(0.5), distance == 0.0);
+}
+
+// The step in a face from a pixel to its neighbour, from derivatives. One on another face is looked for in the plane of this one.
+fn face_step(face: u32, at: vec2f, direction: vec3f, d: vec3f, d_at: vec2f, d_face: f32) -> vec2f {
+    if d_face == 0.0 {
+        return d_at;
+    }
+    let is_ahead = f32(cube_face(direction + d)) - f32(face) == d_face;
+    return on_face(face, select(direction - d, direction + d, is_ahead)) - at;
 }
 
 // A cube as Direct3D 8 filters it, each face for itself.
 fn sample_faces(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f) -> vec4f {
     let face = cube_face(direction);
     let at = on_face(face, direction);
-    let dx = on_face(face, direction + dpdx(direction));
-    let dy = on_face(face, direction + dpdy(direction));
-    return textureSampleGrad(faces, clamped, at, face, dx - at, dy - at);
+    let x = face_step(face, at, direction, dpdxFine(direction), dpdxFine(at), dpdxFine(f32(face)));
+    let y = face_step(face, at, direction, dpdyFine(direction), dpdyFine(at), dpdyFine(f32(face)));
+    return textureSampleGrad(faces, clamped, at, face, x, y);
 }
 
 @vertex

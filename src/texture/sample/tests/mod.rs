@@ -1,5 +1,7 @@
 //! Expected values are worked out by hand from section 7 of the specification.
 
+mod anisotropic;
+
 use proptest::prelude::*;
 
 use super::*;
@@ -295,7 +297,7 @@ fn lambda_of_known_quads() {
     let texture = numbered_levels();
     let mut sampler = Sampler::default();
     let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
-    let lod = |sampler: &Sampler, quad| levels_of_detail(&texture, sampler, &quad);
+    let lod = |sampler: &Sampler, quad| details(&texture, sampler, &quad).map(|d| d.lambda());
     // A step of 2/8 in u is two texels, one of 1/8 in v is one: the longer counts, λ = 1.
     let across = [
         [0.0; 3],
@@ -318,7 +320,7 @@ fn lambda_of_known_quads() {
     assert_eq!(lod(&sampler, across), [0.5; 4]);
 
     let cube = Texture::from_texels(Cube, Format::L8, [4, 4, 1], &[[[0.0; 4]; 96]]).unwrap();
-    let lod = |quad| levels_of_detail(&cube, &Sampler::default(), &quad);
+    let lod = |quad| details(&cube, &Sampler::default(), &quad).map(|d| d.lambda());
     // On +Z from (0,0,1) to (0.5,0,1): sc 0 → 0.5, u by 0.25, one texel: λ = 0; the same direction longer is the same.
     let quad = [
         [0.0, 0.0, 1.0],
@@ -467,7 +469,7 @@ fn nan_is_zero_and_infinity_is_far() {
     assert_eq!(red(&texture, &sampler, f32::NAN), 1.0);
 }
 
-fn any_sampler() -> impl Strategy<Value = Sampler> {
+fn any_sampler() -> BoxedStrategy<Sampler> {
     let modes = [
         AddressMode::Wrap,
         AddressMode::Mirror,
@@ -475,7 +477,7 @@ fn any_sampler() -> impl Strategy<Value = Sampler> {
         AddressMode::Border,
         AddressMode::MirrorOnce,
     ];
-    let filter = || prop::sample::select(vec![Filter::Point, Filter::Linear]);
+    let filter = || prop::sample::select(Filter::ALL);
     let mips = prop::sample::select(vec![MipFilter::None, MipFilter::Point, MipFilter::Linear]);
     let address = prop::array::uniform3(prop::sample::select(modes.to_vec()));
     (
@@ -485,16 +487,18 @@ fn any_sampler() -> impl Strategy<Value = Sampler> {
         mips,
         any::<f32>(),
         0u32..6,
+        0u32..20,
         0u8..4,
     )
         .prop_map(
-            |(address, mag, min, mip, lod_bias, max_mip_level, flags)| Sampler {
+            |(address, mag, min, mip, lod_bias, max_mip_level, max_anisotropy, flags)| Sampler {
                 address,
                 mag,
                 min,
                 mip,
                 lod_bias,
                 max_mip_level,
+                max_anisotropy,
                 border: [0.5; 4],
                 seamless: flags & 1 == 1,
                 weights: if flags & 2 == 2 {
@@ -504,9 +508,10 @@ fn any_sampler() -> impl Strategy<Value = Sampler> {
                 },
             },
         )
+        .boxed()
 }
 
-fn any_coord() -> impl Strategy<Value = f32> {
+fn any_coord() -> BoxedStrategy<f32> {
     prop_oneof![
         -3.0f32..3.0,
         any::<f32>(),
@@ -514,6 +519,7 @@ fn any_coord() -> impl Strategy<Value = f32> {
         Just(f32::INFINITY),
         Just(f32::NEG_INFINITY)
     ]
+    .boxed()
 }
 
 proptest! {
@@ -541,20 +547,23 @@ proptest! {
             prop_assert!((0.199..=0.801).contains(&value), "{value}");
         }
         let coord = quads.map(|lane| lane[0]);
-        let value = sample_at(Some(&texture), &sampler, coord, lod);
-        let print = footprint(&texture, &sampler, coord, lod);
-        let mut sum = [0.0f32; 4];
-        for tap in &print.taps {
-            let texel = match tap.texel {
-                Some([x, y, z]) => texture.texel(tap.face, tap.level, x, y, z).unwrap(),
-                None => sampler.border,
-            };
-            for (sum, value) in sum.iter_mut().zip(texel) {
-                *sum += tap.weight * value;
+        let quad = std::array::from_fn(|lane| quads.map(|lanes| lanes[lane]));
+        for detail in [Detail::from(lod), details(&texture, &sampler, &quad)[0]] {
+            let value = sample_at(Some(&texture), &sampler, coord, detail);
+            let print = footprint(&texture, &sampler, coord, detail);
+            let mut sum = [0.0f32; 4];
+            for tap in &print.taps {
+                let texel = match tap.texel {
+                    Some([x, y, z]) => texture.texel(tap.face, tap.level, x, y, z).unwrap(),
+                    None => sampler.border,
+                };
+                for (sum, value) in sum.iter_mut().zip(texel) {
+                    *sum += tap.weight * value;
+                }
             }
-        }
-        for (a, b) in value.into_iter().zip(sum) {
-            prop_assert!((a - b).abs() < 1e-5, "{value:?} {sum:?}");
+            for (a, b) in value.into_iter().zip(sum) {
+                prop_assert!((a - b).abs() < 1e-5, "{value:?} {sum:?}");
+            }
         }
     }
 }
