@@ -46,7 +46,7 @@ use crate::diagnostic::SourceMap;
 use crate::exec::{Environment, Machine, STAGES, bind_constants};
 use crate::isa::{Opcode, RegisterFile, ShaderKind, Version, WriteMask};
 use crate::kernel::{self, Kernel, LowerError, Projection, Slot};
-use crate::policy::{Model, Policies};
+use crate::policy::{DefLifetime, Model, Policies};
 use crate::program::{Def, Program, Register, Statement};
 use crate::semantics::BumpState;
 use crate::syntax;
@@ -125,6 +125,8 @@ pub struct Weights {
     pub relative: u32,
     /// Constants that the shader defines itself.
     pub definitions: u32,
+    /// Constants among those that are set from outside as well: [`Policies::def`] says which number counts.
+    pub contested: u32,
     /// Stages (slots of a phase) with a texture instruction.
     pub textures: u32,
     /// Stages with a cube.
@@ -157,6 +159,7 @@ impl Default for Weights {
             phases: 65,
             relative: 40,
             definitions: 30,
+            contested: 25,
             textures: 70,
             cubes: 25,
             volumes: 15,
@@ -213,7 +216,7 @@ pub struct Generated {
     pub listing: String,
     /// The vertex elements, or colours and coordinate sets, of every invocation. All that the version has.
     pub inputs: Vec<(Slot, [[f32; 4]; INVOCATIONS])>,
-    /// The constants that are set from outside. Those that the shader defines are not among them.
+    /// The constants that are set from outside. Few of those that the shader defines are among them.
     pub constants: Vec<(u32, [f32; 4])>,
     /// The numbers that it computes with.
     pub model: Model,
@@ -391,10 +394,18 @@ fn finish(maker: Maker) -> Generated {
     let is_defined = |index: u32| defined.get(index as usize) == Some(&true);
     let value = |index: u32| all.get(index as usize).copied().unwrap_or_default();
     let (inside, outside): (Vec<u32>, Vec<u32>) = used.into_iter().partition(|i| is_defined(*i));
+    // Some are defined and set: one of both numbers counts, and the other would show.
+    let share = maker.options.weights.contested;
+    let contested: Vec<u32> = (inside.iter().copied())
+        .filter(|_| maker.random.chance(share))
+        .collect();
+    let idle = |index: u32| value(index).map(|x| 0.75 - x);
+    let always = maker.options.policies.def == DefLifetime::Always;
     let definitions = inside.into_iter().map(|index| {
+        let idles = !always && contested.contains(&index);
         Statement::Def(Def {
             register: Register::new(RegisterFile::Const, index),
-            value: value(index),
+            value: if idles { idle(index) } else { value(index) },
             co_issue: false,
             span: HERE,
             register_span: HERE,
@@ -407,7 +418,13 @@ fn finish(maker: Maker) -> Generated {
         program,
         listing,
         inputs: maker.inputs,
-        constants: outside.into_iter().map(|i| (i, value(i))).collect(),
+        constants: (outside.into_iter().map(|i| (i, value(i))))
+            .chain(
+                contested
+                    .iter()
+                    .map(|i| (*i, if always { idle(*i) } else { value(*i) })),
+            )
+            .collect(),
         model: maker.options.model,
         policies: maker.options.policies,
         stages: maker.stages,

@@ -2,7 +2,7 @@
 
 use super::MatchError;
 use crate::diagnostic::SourceMap;
-use crate::exec::bind_constants;
+use crate::exec::{bind_constants, overrides_definitions};
 use crate::generate::{self, Generated, INVOCATIONS, Outcome, Random, Textures};
 use crate::gpu::{Batch, Device, GpuError, Program, Results, StageUniforms, Uniforms};
 use crate::isa::ShaderKind;
@@ -80,7 +80,7 @@ impl Subject {
             level_zero: true,
             half_pixel: false,
             exact_dots: random.chance(50),
-            overridable_definitions: random.chance(25),
+            overridable_definitions: random.chance(25) || overrides(&generated),
             fog: (version.kind() == ShaderKind::Vertex).then_some(Fog {
                 table: FogMode::None,
                 distance: FogDistance::Z,
@@ -195,6 +195,14 @@ impl Subject {
         }
         comparison
     }
+}
+
+/// Whether a constant is set that the shader defines, and replaces it.
+fn overrides(generated: &Generated) -> bool {
+    let kernel = generated.lower(&generated.program);
+    kernel.is_ok_and(|kernel| {
+        overrides_definitions(&kernel, &bind_constants(&kernel, &generated.constants))
+    })
 }
 
 impl Comparison {

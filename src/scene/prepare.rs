@@ -6,7 +6,7 @@ use super::error::{Problems, rules};
 use super::shader::Shader;
 use super::{Scene, TextureSource};
 use crate::diagnostic::Span;
-use crate::exec::{Environment, STAGES, bind_constants, overrides_definitions};
+use crate::exec::{Environment, STAGES, bind_constants_over, overrides_definitions};
 use crate::kernel::Kernel;
 use crate::mesh::Mesh;
 use crate::raster::{FogDistance, RenderState, Topology};
@@ -121,6 +121,7 @@ impl Scene {
     /// those that it reads itself, and then the picture.
     pub fn passes(&self, size: [u32; 2]) -> Vec<Pass<'_>> {
         let needed = self.needed_targets();
+        let mut left = Left::default();
         let mut passes = Vec::new();
         for &number in self.order.iter().filter(|number| needed[**number]) {
             let target = &self.targets[number];
@@ -133,7 +134,7 @@ impl Scene {
                     },
                     size: target.size,
                     clear: target.clear,
-                    draws: self.prepare(&target.draws, view, target.size),
+                    draws: self.prepare(&target.draws, view, target.size, &mut left),
                 });
             }
         }
@@ -141,7 +142,7 @@ impl Scene {
             output: Output::Picture,
             size,
             clear: self.clear,
-            draws: self.prepare(&self.picture, self.picture_matrices(size), size),
+            draws: self.prepare(&self.picture, self.picture_matrices(size), size, &mut left),
         });
         passes
     }
@@ -156,6 +157,7 @@ impl Scene {
         draws: &[usize],
         view: (Mat4, Mat4),
         size: [u32; 2],
+        left: &mut Left,
     ) -> Vec<PreparedDraw<'_>> {
         draws
             .iter()
@@ -176,13 +178,13 @@ impl Scene {
                     declaration: &draw.declaration,
                     topology: draw.topology,
                     vertex: &draw.vertex,
-                    vertex_constants: bound(
+                    vertex_constants: left.vertex.bind(
                         &draw.vertex.kernel,
                         &draw.vertex_constants,
                         &surroundings,
                     ),
                     pixel: &draw.pixel,
-                    pixel_constants: bound(
+                    pixel_constants: left.pixel.bind(
                         &draw.pixel.kernel,
                         &draw.pixel_constants,
                         &surroundings,
@@ -271,13 +273,44 @@ impl Scene {
     }
 }
 
-fn bound(kernel: &Kernel, constants: &[Constant], surroundings: &Surroundings) -> Vec<[f32; 4]> {
-    let set: Vec<(u32, [f32; 4])> = constants
-        .iter()
-        .filter_map(|constant| constant.bind(surroundings))
-        .flatten()
-        .collect();
-    bind_constants(kernel, &set)
+/// What `def` has left in constant registers for the draws behind it.
+#[derive(Default)]
+struct Left {
+    vertex: LeftOfKind,
+    pixel: LeftOfKind,
+}
+
+/// The registers that shaders of a kind have defined so far, with what they hold.
+#[derive(Default)]
+struct LeftOfKind(Vec<(u32, [f32; 4])>);
+
+impl LeftOfKind {
+    /// The registers of a draw. What a draw sets is its own, but for registers that a shader has defined: Direct3D 8 has one
+    /// file of constants, which definitions are loaded into.
+    fn bind(
+        &mut self,
+        kernel: &Kernel,
+        constants: &[Constant],
+        surroundings: &Surroundings,
+    ) -> Vec<[f32; 4]> {
+        let set: Vec<(u32, [f32; 4])> = constants
+            .iter()
+            .filter_map(|constant| constant.bind(surroundings))
+            .flatten()
+            .collect();
+        let bound = bind_constants_over(kernel, &self.0, &set);
+        for (index, _) in &kernel.definitions {
+            if !self.0.iter().any(|(known, _)| known == index) {
+                self.0.push((*index, [0.0; 4]));
+            }
+        }
+        for (index, value) in &mut self.0 {
+            if let Some(held) = bound.get(*index as usize) {
+                *value = *held;
+            }
+        }
+        bound
+    }
 }
 
 /// Direct3D 8 decides by the fourth column of the projection matrix, (0, 0, 0, 1) or not, which distance table fog uses.

@@ -180,6 +180,15 @@ impl Magnitudes {
         (slots.components()).all(|slot| self.factor(operand, slot).most < UNBOUNDED)
     }
 
+    /// Whether what a step computes is neither infinite nor NaN before it becomes a number of a model.
+    pub(super) fn gives_finite(&self, step: &Step) -> bool {
+        let scale = 2f64.powi(step.result.shift.into());
+        // Saturation takes NaN to 0.
+        step.result.saturate
+            || (step.mask.components())
+                .all(|component| limited(self.bound(step, component) * scale) < UNBOUNDED)
+    }
+
     /// Whether a component of a register may be infinite or NaN by now.
     pub(super) fn may_be_infinite(&self, slot: Slot, component: usize) -> bool {
         self.most[slot.index()][component & 3] == UNBOUNDED
