@@ -98,6 +98,15 @@ impl Context<'_> {
             Some(quad)
         };
         let all = |value: Approx| Some([value; 4]);
+        // Compilers may factor sums, 0·a + 0·b as 0·(a + b), which is NaN where the sum is infinite.
+        let sums = matches!(
+            op,
+            Op::Add | Op::Sub | Op::Mad | Op::Lrp | Op::Dp3 | Op::Dp4 | Op::Reflect
+        );
+        let endless = |quad: &Quad| quad.iter().any(|x| x.value.abs() >= f64::from(f32::MAX));
+        if sums && sources.iter().any(endless) {
+            return None;
+        }
         match op {
             Op::Mov => Some(a),
             Op::Add => each(&|k| Some(a[k].plus(b[k], r))),

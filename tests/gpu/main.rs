@@ -10,6 +10,7 @@ mod frames;
 mod matching;
 mod models;
 mod pictures;
+mod policies;
 mod registers;
 mod states;
 #[path = "../conformance/suite.rs"]
