@@ -98,6 +98,11 @@ impl Computing {
     pub(super) fn model(&self) -> Model {
         self.model
     }
+
+    /// The numeric choices.
+    pub(super) fn policies(&self) -> Policies {
+        self.choices.policies()
+    }
 }
 
 impl Several {

@@ -1,4 +1,4 @@
-//! `explain`: what an instruction, a register, a modifier, a version or a rule means.
+//! `explain`: what an instruction, a register, a modifier, a version, a rule, a hardware model or a numeric choice means.
 
 use super::{Failure, Format, Outcome, print, print_json};
 use anstyle::{AnsiColor, Style};
@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use texcrd::explain::{self, Page, Part, Role, Subject};
 use texcrd::isa::Version;
 
-/// Tells what an instruction, a register, a modifier, a version or a rule means.
+/// Tells what an instruction, a register, a modifier, a version, a rule, a hardware model or a numeric choice means.
 ///
 /// Names are what stands in listings and messages: lrp, mul_x2, r0, oPos, c[a0.x], _bx2, 1-, .rgb, +, ps.1.4, B3; opcodes also as
-/// 0x12 and D3DSIO_LRP. Without a name, everything that can be asked for.
+/// 0x12 and D3DSIO_LRP; and what --model and --policy take: gf3, rcp-zero. Without a name, everything that can be asked for.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -17,6 +17,8 @@ Examples:
   texcrd explain lrp
   texcrd explain texld --in ps.1.4      as one version has it
   texcrd explain mul_x2_sat -- -r0_bx2.a
+  texcrd explain policies               every numeric choice with its values
+  texcrd explain gf3                    what a hardware model does to numbers
   texcrd explain B3 --format json")]
 pub(super) struct Arguments {
     /// What to explain; what begins with a minus sign stands behind `--`.

@@ -1,5 +1,6 @@
 //! `fuzz-match`: generated shaders on the CPU and on a GPU.
 
+use super::computing::Computing;
 use super::{Failure, Format, Outcome, filters, generate, print, print_json, scene};
 use clap::Args;
 use serde_json::{Value, json};
@@ -9,6 +10,7 @@ use texcrd::generate::{Precision, Textures};
 use texcrd::gpu::Device;
 use texcrd::isa::Version;
 use texcrd::matching::{self, Coverage, Group, MatchError, Mismatch, Plan, Report};
+use texcrd::policy::{Model, Policies, Policy};
 
 /// Compares the CPU with a GPU on generated shaders: every number that they compute, each with a bound of its own.
 ///
@@ -21,6 +23,7 @@ Examples:
   texcrd fuzz-match --count 100000 --seed 1
   texcrd fuzz-match --count 5000 --seed 1 --version ps.1.4
   texcrd fuzz-match --version ps.1.4 --seed 1234      one shader again
+  texcrd fuzz-match --count 5000 --model gf3          with the numbers of a GeForce 3
 
 Exit status: 0 no mismatch, 1 a mismatch, 2 usage or I/O.")]
 pub(super) struct Arguments {
@@ -42,6 +45,8 @@ pub(super) struct Arguments {
     /// How many of the mismatches are made small and printed as cases
     #[arg(long, value_name = "N", default_value_t = 3)]
     shrink: usize,
+    #[command(flatten)]
+    computing: Computing,
     /// How results are written
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -61,6 +66,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
             some => some.to_vec(),
         },
         precision: precision(device),
+        model: arguments.computing.model(),
+        policies: arguments.computing.policies(),
+        weights: generate::weights(&arguments.computing),
     };
     let bar = scene::progress_bar();
     bar.set_length(plan.count);
@@ -79,7 +87,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     bar.finish_and_clear();
     let seconds = begun.elapsed().as_secs_f64();
     let adapter = device.adapter().to_string();
-    let textures = Textures::new().map_err(|e| Failure::Input(e.to_string()))?;
+    let textures = Textures::with_model(plan.model).map_err(|e| Failure::Input(e.to_string()))?;
     match arguments.format {
         Format::Text => print(&text(&plan, &report, &small, &adapter, seconds, &textures))?,
         Format::Json => print_json(&json(&plan, &report, &small, &adapter, seconds, &textures))?,
@@ -123,6 +131,21 @@ fn precision(device: &Device) -> Precision {
     }
 }
 
+/// The options that say with what numbers shaders compute, where that is not as usual.
+fn computing(plan: &Plan) -> String {
+    let mut options = String::new();
+    if plan.model != Model::default() {
+        let _ = write!(options, " --model {}", plan.model);
+    }
+    for policy in Policy::all() {
+        let value = policy.get(&plan.policies);
+        if value != policy.get(&Policies::default()) {
+            let _ = write!(options, " --policy {}={value}", policy.name);
+        }
+    }
+    options
+}
+
 fn text(
     plan: &Plan,
     report: &Report,
@@ -136,8 +159,10 @@ fn text(
         let version = mismatch.subject.generated.program.version;
         let _ = writeln!(
             text,
-            "mismatch: {version}, seed {}; again with `texcrd fuzz-match --version {version} --seed {}`",
-            mismatch.seed, mismatch.seed
+            "mismatch: {version}, seed {}; again with `texcrd fuzz-match --version {version} --seed {}{}`",
+            mismatch.seed,
+            mismatch.seed,
+            computing(plan)
         );
         let _ = writeln!(text, "\nas generated:\n{}", whole.subject.generated.listing);
         let _ = writeln!(text, "made small, as a case:\n");
@@ -155,7 +180,14 @@ fn text(
         1 => "1 shader".to_owned(),
         count => format!("{count} shaders"),
     };
-    let _ = writeln!(text, "{shaders}, CPU against {adapter}, {seconds:.0} s");
+    let with = match computing(plan) {
+        with if with.is_empty() => with,
+        with => format!(" with{with}"),
+    };
+    let _ = writeln!(
+        text,
+        "{shaders}{with}, CPU against {adapter}, {seconds:.0} s"
+    );
     let _ = writeln!(
         text,
         "  {} numbers compared, {:.2} % equal to the bit; a difference took {:.0} % of its bound at most",
@@ -208,6 +240,9 @@ fn json(
             )
         })
         .collect();
+    let policies: serde_json::Map<_, _> = Policy::all()
+        .map(|policy| (policy.name.to_owned(), json!(policy.get(&plan.policies))))
+        .collect();
     let mismatches: Vec<_> = (report.mismatches.iter().enumerate())
         .map(|(number, mismatch)| {
             let small = small.get(number);
@@ -228,6 +263,8 @@ fn json(
     json!({
         "adapter": adapter,
         "seed": plan.seed,
+        "model": plan.model.name(),
+        "policies": policies,
         "shaders": report.shaders,
         "seconds": seconds,
         "numbers": comparison.numbers,

@@ -1,9 +1,11 @@
 //! `texcrd generate`: prints a random valid shader.
 
+use super::computing::Computing;
 use super::{Failure, Outcome};
 use clap::Args;
-use texcrd::generate::{Options, Random, Textures, shader};
+use texcrd::generate::{Options, Random, Textures, Weights, shader};
 use texcrd::isa::Version;
+use texcrd::policy::Policies;
 
 /// Prints a random valid shader. The same seed gives the same shader again.
 #[derive(Args)]
@@ -18,6 +20,20 @@ pub(super) struct Arguments {
     /// Allow infinities, NaN and results that depend on rounding
     #[arg(long)]
     wild: bool,
+    #[command(flatten)]
+    computing: Computing,
+}
+
+/// How often what occurs: with another slot for scalar instructions there are some that leave it open.
+pub(super) fn weights(computing: &Computing) -> Weights {
+    let usual = Weights::default();
+    match computing.policies().scalar == Policies::default().scalar {
+        true => usual,
+        false => Weights {
+            bare_scalars: 30,
+            ..usual
+        },
+    }
 }
 
 /// The value parser of `--version`.
@@ -32,9 +48,13 @@ pub(super) fn version(text: &str) -> Result<Version, String> {
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let options = Options {
         comparable: !arguments.wild,
+        model: arguments.computing.model(),
+        policies: arguments.computing.policies(),
+        weights: weights(&arguments.computing),
         ..Options::new(arguments.version)
     };
-    let textures = Textures::new().map_err(|e| Failure::Input(e.to_string()))?;
+    let textures =
+        Textures::with_model(options.model).map_err(|e| Failure::Input(e.to_string()))?;
     let made = shader(&mut Random::new(arguments.seed), &options, &textures);
     super::print(&made.listing)
 }

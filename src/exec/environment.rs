@@ -37,6 +37,16 @@ pub struct Stage<'a> {
 /// hold. What nobody sets is (0, 0, 0, 0). Pixel shader constants are clamped to −1…1.
 /// Numbers in `set` beyond the registers there are have no effect.
 pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]> {
+    bind_constants_over(kernel, &[], set)
+}
+
+/// The same where shaders before this one have left something in the registers: it is there until this shader defines the
+/// register or it is set. Where definitions always hold, they belong to their shader alone, and nothing is left.
+pub fn bind_constants_over(
+    kernel: &Kernel,
+    left: &[(u32, [f32; 4])],
+    set: &[(u32, [f32; 4])],
+) -> Vec<[f32; 4]> {
     let kind = kernel.version.kind();
     let count = match kind {
         // A listing that names more than every device has gets what it names, and what is set can be addressed.
@@ -47,11 +57,12 @@ pub fn bind_constants(kernel: &Kernel, set: &[(u32, [f32; 4])]) -> Vec<[f32; 4]>
         ShaderKind::Pixel => RegisterFile::Const.count(kernel.version),
     };
     let mut constants = vec![[0.0; 4]; count as usize];
-    let (first, last) = match kernel.policies.def {
-        DefLifetime::WhenSet => (kernel.definitions.as_slice(), set),
-        DefLifetime::Always => (set, kernel.definitions.as_slice()),
+    let own = kernel.definitions.as_slice();
+    let (left, first, last) = match kernel.policies.def {
+        DefLifetime::WhenSet => (left, own, set),
+        DefLifetime::Always => ([].as_slice(), set, own),
     };
-    for (index, value) in first.iter().chain(last) {
+    for (index, value) in left.iter().chain(first).chain(last) {
         if let Some(constant) = constants.get_mut(*index as usize) {
             *constant = match kind {
                 ShaderKind::Vertex => *value,

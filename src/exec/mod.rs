@@ -10,6 +10,8 @@ mod machine;
 mod tests;
 mod trace;
 
-pub use environment::{Environment, STAGES, Stage, bind_constants, overrides_definitions};
+pub use environment::{
+    Environment, STAGES, Stage, bind_constants, bind_constants_over, overrides_definitions,
+};
 pub use machine::{Lanes, Machine, Observer};
 pub use trace::{Change, Trace};

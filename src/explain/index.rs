@@ -39,6 +39,8 @@ fn group(subject: &Subject) -> &'static str {
         Subject::Notation(_) => "notation",
         Subject::Version(_) => "versions",
         Subject::Macro(_) => "macros",
+        Subject::Model(_) => "models",
+        Subject::Policy(_) => "policies",
         Subject::Rule(entry) => match entry.group() {
             Group::Text => "text",
             Group::Tokens => "tokens",

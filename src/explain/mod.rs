@@ -1,4 +1,5 @@
-//! What instructions, registers, modifiers, notations, versions and rules mean, as pages for people.
+//! What instructions, registers, modifiers, notations, versions, rules, hardware models and numeric choices mean, as pages for
+//! people.
 //!
 //! Nothing is known here: every sentence and every number of a page comes from the row that parser, validator and encoder
 //! work with, examples are encoded while one looks, and what breaks a rule is judged by the rule itself.
@@ -9,6 +10,7 @@
 //! assert!(pages[0].text(80).contains("d = s0 * s1 + (1 - s0) * s2"));
 //! ```
 
+mod computing;
 mod encoding;
 mod index;
 mod instruction;
@@ -25,6 +27,7 @@ mod version;
 #[cfg(test)]
 mod tests;
 
+pub use computing::{model, models, policies, policy};
 pub use index::index;
 pub use instruction::{declaration, instruction, operand_names, written};
 pub use macros::token_macro;

@@ -6,6 +6,7 @@ use crate::bytecode::{Macro, register_named};
 use crate::isa::modifier::ResultSuffix;
 use crate::isa::operand::{RGBA, XYZW};
 use crate::isa::{Notation, Opcode, RegisterFile, SourceModifier, Version};
+use crate::policy::Policy;
 use crate::program::Usage;
 use crate::rules;
 use crate::syntax::{distance, foreign_mnemonic};
@@ -42,7 +43,7 @@ impl std::error::Error for Unknown {}
 ///
 /// Names are what listings hold, in any case of letters: mnemonics with and without suffixes, registers with and without numbers,
 /// whole operands, modifiers, masks, versions; identifiers of rules, which are told from registers by their capital: `R5` and `r5`;
-/// opcodes as `0x12` and `D3DSIO_LRP`.
+/// opcodes as `0x12` and `D3DSIO_LRP`; hardware models and numeric choices: `gf3`, `rcp-zero`, `policies`.
 ///
 /// # Errors
 /// [`Unknown`], with names that are near.
@@ -81,7 +82,9 @@ pub fn subjects(name: &str) -> Result<Vec<Subject>, Unknown> {
 
 /// What a name in lower case means; the first way of reading that gives something.
 fn meant(text: &str) -> Vec<Subject> {
-    let ways: [fn(&str) -> Vec<Subject>; 10] = [
+    let ways: [fn(&str) -> Vec<Subject>; 11] = [
+        // Before registers: r200 is none.
+        model,
         |text| version(text).map(Subject::Version).into_iter().collect(),
         opcodes_of_token,
         of_header,
@@ -94,7 +97,9 @@ fn meant(text: &str) -> Vec<Subject> {
         operand,
     ];
     let mut found = ways.iter().map(|way| way(text));
-    found.find(|found| !found.is_empty()).unwrap_or_default()
+    let found = found.find(|found| !found.is_empty()).unwrap_or_default();
+    // `def` and `logp` are an instruction and what is chosen of it.
+    found.into_iter().chain(policy(text)).collect()
 }
 
 /// `ps.1.4`, `ps_1_4`, `ps14`.
@@ -113,6 +118,31 @@ fn opcodes_of_token(text: &str) -> Vec<Subject> {
     let with_token = |opcode: &Opcode| token.is_some_and(|token| opcode.row().token == token);
     let all = Opcode::all().filter(with_token);
     all.map(Subject::Instruction).collect()
+}
+
+/// `models`, `--model`, `gf3`.
+fn model(text: &str) -> Vec<Subject> {
+    match (text.trim_start_matches('-'), text.parse()) {
+        (_, Ok(model)) => vec![Subject::Model(Some(model))],
+        ("model" | "models", _) => vec![Subject::Model(None)],
+        _ => Vec::new(),
+    }
+}
+
+/// `policies`, `--policy`, `rcp-zero`, `scalar=x`.
+fn policy(text: &str) -> Option<Subject> {
+    if matches!(text.trim_start_matches('-'), "policy" | "policies") {
+        return Some(Subject::Policy(None));
+    }
+    let (name, value) = match text.split_once('=') {
+        Some((name, value)) => (name.trim(), Some(value.trim())),
+        None => (text, None),
+    };
+    let has = |policy: &&Policy| {
+        value.is_none_or(|value| policy.values().iter().any(|known| known.name == value))
+    };
+    let policy = Policy::named(name).filter(has)?;
+    Some(Subject::Policy(Some(policy)))
 }
 
 /// `d3dvsd_reg`, `d3dvsde_normal`, `d3dvsdt_float3`.

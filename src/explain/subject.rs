@@ -5,6 +5,7 @@ use crate::bytecode::Macro;
 use crate::isa::modifier::ResultSuffix;
 use crate::isa::register::RAST_OUT;
 use crate::isa::{Notation, Opcode, RegisterFile, SourceModifier, Version};
+use crate::policy::{Model, Policy};
 use crate::program::Usage;
 use crate::rules::{self, Entry};
 
@@ -29,6 +30,10 @@ pub enum Subject {
     Rule(&'static Entry),
     /// A macro that makes a token.
     Macro(&'static Macro),
+    /// A hardware model, or all of them.
+    Model(Option<Model>),
+    /// A numeric choice, or all of them.
+    Policy(Option<&'static Policy>),
 }
 
 impl Subject {
@@ -55,6 +60,18 @@ impl Subject {
             .chain(Notation::all().map(Subject::Notation))
             .chain(Version::all().map(Subject::Version))
             .chain(Macro::all().map(Subject::Macro))
+            .chain(
+                [None]
+                    .into_iter()
+                    .chain(Model::all().map(Some))
+                    .map(Subject::Model),
+            )
+            .chain(
+                [None]
+                    .into_iter()
+                    .chain(Policy::all().map(Some))
+                    .map(Subject::Policy),
+            )
             .chain(rules::all().map(Subject::Rule))
     }
 
@@ -71,11 +88,13 @@ impl Subject {
             Subject::Version(version) => version.name().to_string(),
             Subject::Rule(entry) => entry.rule.id.to_string(),
             Subject::Macro(of) => of.name().to_string(),
+            Subject::Model(model) => model.map_or("models", Model::name).to_string(),
+            Subject::Policy(policy) => policy.map_or("policies", |policy| policy.name).to_string(),
         }
     }
 
     /// What kind of thing it is: `instruction`, `register`, `modifier`, `notation`, `version`, `rule`,
-    /// `macro`.
+    /// `macro`, `model`, `policy`.
     pub fn kind(&self) -> &'static str {
         match self {
             Subject::Instruction(_) | Subject::Declaration(_) => "instruction",
@@ -85,6 +104,8 @@ impl Subject {
             Subject::Version(_) => "version",
             Subject::Rule(_) => "rule",
             Subject::Macro(_) => "macro",
+            Subject::Model(_) => "model",
+            Subject::Policy(_) => "policy",
         }
     }
 
@@ -100,6 +121,10 @@ impl Subject {
             Subject::Version(version) => super::version(version),
             Subject::Rule(rule) => super::rule(rule),
             Subject::Macro(of) => super::token_macro(of),
+            Subject::Model(None) => super::models(),
+            Subject::Model(Some(model)) => super::model(model),
+            Subject::Policy(None) => super::policies(),
+            Subject::Policy(Some(policy)) => super::policy(policy),
         }
     }
 }

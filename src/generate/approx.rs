@@ -144,28 +144,37 @@ impl Approx {
         Some(Self::new(value, inherited + rounded))
     }
 
-    /// As the registers of a model hold it. Executors that may be on both sides of where rounding jumps part by a step.
+    /// As the registers of a model hold it: near the middle between two steps executors part by one.
     pub(super) fn held(self, model: Model, rounding: f64) -> Self {
         let Some(steps) = model.steps().map(f64::from) else {
             return self;
         };
-        let (most, scaled) = (f64::from(model.most()), self.value * steps + 0.5);
-        let held = Self::exact((scaled.floor() / steps).clamp(-most, most));
-        // Where every executor has the same number and its product with the steps is exact, all of them round it alike.
-        let jump = (scaled - scaled.round()).abs() / steps;
-        let sure = jump > 2.0 * self.error + rounding * self.value.abs() || self.is_coarse();
-        let beyond = self.value.abs() - self.error > most;
-        // What is divided in the end need not be the nearest number.
-        let divided = match model {
-            Model::Gf3 if held.value.abs() < 1.0 => rounding * held.value.abs(),
-            _ => 0.0,
+        if self.value.is_nan() {
+            return Self::ZERO;
+        }
+        let most = f64::from(model.most());
+        let hold = |x: f64| (x.clamp(-most, most) * steps + 0.5).floor();
+        // Where every executor has the same number and its product with the steps is exact, all of them round it alike. The
+        // bound is a little more than it was worked out to be, because rounded numbers went into it.
+        let reach = match self.is_coarse() {
+            true => 0.0,
+            false => SLIGHTLY_MORE * self.error + rounding * self.value.abs(),
         };
-        let apart = if sure || beyond {
-            0.0
-        } else {
-            self.error + 1.0 / steps
-        };
-        Self::new(held.value, apart + divided)
+        let here = hold(self.value);
+        let (below, above) = (hold(self.value - reach), hold(self.value + reach));
+        let apart = (here - below).max(above - here) / steps;
+        Self::new(here / steps, apart + divided(model, here / steps, rounding))
+    }
+
+    /// As the registers of a model hold a number of which only the error is known.
+    pub(super) fn held_somewhere(self, model: Model) -> Self {
+        match model.steps().map(f64::from) {
+            Some(steps) if self.error > 0.0 => {
+                let apart = (SLIGHTLY_MORE * self.error * steps).ceil();
+                Self::new(self.value, apart / steps)
+            }
+            _ => self,
+        }
     }
 
     /// Clamped to 0…1. Beyond the ends by more than the bound, all executors have the end.
@@ -173,6 +182,17 @@ impl Approx {
         let value = self.value.clamp(0.0, 1.0);
         let sure = self.value - self.error > 1.0 || self.value + self.error < 0.0;
         Self::new(value, if sure { 0.0 } else { self.error })
+    }
+}
+
+/// What bounds are taken for where a step of a model hangs on them.
+const SLIGHTLY_MORE: f64 = 1.01;
+
+/// How far k / 255 may be from the nearest float: WGSL divides within a few units. 4096 is a power of two.
+fn divided(model: Model, held: f64, rounding: f64) -> f64 {
+    match model {
+        Model::Gf3 if held.abs() < 1.0 => rounding * held.abs(),
+        _ => 0.0,
     }
 }
 

@@ -6,13 +6,15 @@ use super::{INVOCATIONS, Stage};
 use crate::exec::STAGES;
 use crate::isa::{SourceModifier, WriteMask};
 use crate::kernel::{Op, Step};
-use crate::policy::Model;
+use crate::policy::{Model, OfZero};
 use crate::semantics::BumpState;
 use crate::texture::TextureKind;
 
 /// Where bounds are worked out.
 pub(crate) struct Context<'a> {
     pub(super) precision: &'a Precision,
+    /// What stands for infinity where a reciprocal or a logarithm of 0 is asked for.
+    pub(super) of_zero: OfZero,
     pub(super) sampling: &'a dyn Sampling,
 }
 
@@ -40,11 +42,13 @@ impl Sampling for Gentle<'_> {
         let r = precision.rounding;
         let stage = &self.stages[stage % STAGES];
         let slope = self.textures.slope(stage.kind, stage.signed);
-        let moved = |x: &Approx| x.error + r * x.value.abs();
+        // Weights of 8 bits may be rounded the other way.
+        let step = self.textures.weight_step(stage.kind);
+        let moved = |x: &Approx| x.error + r * x.value.abs() + step;
         let moved = match stage.kind {
             TextureKind::Texture2D => at[..2].iter().map(moved).sum::<f64>(),
             TextureKind::Volume => at.iter().map(moved).sum(),
-            TextureKind::Cube => cube(at, r)?,
+            TextureKind::Cube => cube(at, r)? + 2.0 * step,
         };
         Some(slope * moved + precision.sample)
     }
@@ -94,6 +98,15 @@ impl Context<'_> {
             Some(quad)
         };
         let all = |value: Approx| Some([value; 4]);
+        // Compilers may factor sums, 0·a + 0·b as 0·(a + b), which is NaN where the sum is infinite.
+        let sums = matches!(
+            op,
+            Op::Add | Op::Sub | Op::Mad | Op::Lrp | Op::Dp3 | Op::Dp4 | Op::Reflect
+        );
+        let endless = |quad: &Quad| quad.iter().any(|x| x.value.abs() >= f64::from(f32::MAX));
+        if sums && sources.iter().any(endless) {
+            return None;
+        }
         match op {
             Op::Mov => Some(a),
             Op::Add => each(&|k| Some(a[k].plus(b[k], r))),
@@ -130,6 +143,8 @@ impl Context<'_> {
             }),
             Op::Dp3 => all(dot(&a[..3], &b[..3], r)),
             Op::Dp4 => all(dot(&a, &b, r)),
+            Op::Rcp | Op::Rsq if a[0] == Approx::ZERO => all(number(self.of_zero.value())),
+            Op::Log if a[0] == Approx::ZERO => all(number(-self.of_zero.value())),
             Op::Rcp => all(Approx::ONE.over(a[0], r)?),
             Op::Rsq => all(self.inverse_root(a[0])?),
             Op::Exp => all(a[0].exp2(r)),
@@ -183,12 +198,9 @@ impl Context<'_> {
         } else {
             x
         };
-        match (step.op, step.writes.steps()) {
+        match step.op {
             // Of a sample only the error is known here, so that it may lie anywhere between two steps.
-            (Op::Sample(_), Some(steps)) if x.error > 0.0 => {
-                Approx::new(x.value, x.error + 1.0 / f64::from(steps))
-            }
-            (Op::Sample(_), _) => x,
+            Op::Sample(_) => x.held_somewhere(step.writes),
             _ => x.held(step.writes, self.precision.rounding),
         }
     }
@@ -249,6 +261,10 @@ impl Context<'_> {
     }
 
     fn partial_logarithm(&self, x: Approx, mask: WriteMask) -> Option<Quad> {
+        if x == Approx::ZERO {
+            let least = number(-self.of_zero.value());
+            return Some([least, Approx::ONE, least, Approx::ONE]);
+        }
         let logarithm = x.log2(self.precision)?;
         let power = logarithm.value.floor().exp2();
         let size = Approx::new(x.value.abs(), x.error);

@@ -110,10 +110,7 @@ impl<'a> Maker<'a> {
 
     /// What the shader is lowered with.
     pub(super) fn kernel_options(&self) -> kernel::Options {
-        kernel::Options {
-            projection: std::array::from_fn(|i| self.stages[i].projection),
-            ..kernel::Options::default()
-        }
+        super::lowering(self.options.model, self.options.policies, &self.stages)
     }
 
     /// The constants as a run of this kernel has them.

@@ -46,6 +46,7 @@ use crate::diagnostic::SourceMap;
 use crate::exec::{Environment, Machine, STAGES, bind_constants};
 use crate::isa::{Opcode, RegisterFile, ShaderKind, Version, WriteMask};
 use crate::kernel::{self, Kernel, LowerError, Projection, Slot};
+use crate::policy::{DefLifetime, Model, Policies};
 use crate::program::{Def, Program, Register, Statement};
 use crate::semantics::BumpState;
 use crate::syntax;
@@ -71,6 +72,10 @@ pub struct Options {
     pub comparable: bool,
     /// How exact the executors are.
     pub precision: Precision,
+    /// The numbers that they compute with.
+    pub model: Model,
+    /// What they do where there is a choice.
+    pub policies: Policies,
     /// Comparable shaders: the largest number that is computed; where it is infinite, infinities and NaN are, too.
     pub largest_value: f64,
     /// Comparable shaders: the largest bound of a number within ±1; of larger ones relative to their size.
@@ -89,6 +94,8 @@ impl Options {
             weights: Weights::default(),
             comparable: true,
             precision: Precision::default(),
+            model: Model::default(),
+            policies: Policies::default(),
             largest_value: 1.0e6,
             largest_error: 0.05,
         }
@@ -118,6 +125,8 @@ pub struct Weights {
     pub relative: u32,
     /// Constants that the shader defines itself.
     pub definitions: u32,
+    /// Constants among those that are set from outside as well: [`Policies::def`] says which number counts.
+    pub contested: u32,
     /// Stages (slots of a phase) with a texture instruction.
     pub textures: u32,
     /// Stages with a cube.
@@ -128,6 +137,9 @@ pub struct Weights {
     pub projections: u32,
     /// `texcrd` that prepare a `texdepth`.
     pub depth: u32,
+    /// Sources of scalar instructions of which no letter says what is read, as `rcp r0, r1`: the validator warns of them
+    /// (O21), so that there are none unless they are asked for.
+    pub bare_scalars: u32,
     /// Numbers at which something changes: 0, −0, 0.5, 1 and the like.
     pub exact_values: u32,
     /// Infinities, NaN, denormal, huge and tiny numbers; only in shaders that are not comparable.
@@ -147,11 +159,13 @@ impl Default for Weights {
             phases: 65,
             relative: 40,
             definitions: 30,
+            contested: 25,
             textures: 70,
             cubes: 25,
             volumes: 15,
             projections: 15,
             depth: 25,
+            bare_scalars: 0,
             exact_values: 15,
             wild_values: 15,
         }
@@ -202,8 +216,12 @@ pub struct Generated {
     pub listing: String,
     /// The vertex elements, or colours and coordinate sets, of every invocation. All that the version has.
     pub inputs: Vec<(Slot, [[f32; 4]; INVOCATIONS])>,
-    /// The constants that are set from outside. Those that the shader defines are not among them.
+    /// The constants that are set from outside. Few of those that the shader defines are among them.
     pub constants: Vec<(u32, [f32; 4])>,
+    /// The numbers that it computes with.
+    pub model: Model,
+    /// What it does where there is a choice.
+    pub policies: Policies,
     /// What the texture stages hold; only those that [`Kernel::stages`] or a bump instruction names matter.
     pub stages: [Stage; STAGES],
     /// The results: outputs that are written, or `r0` and the depth that is written.
@@ -218,11 +236,7 @@ impl Generated {
     /// # Errors
     /// None for a program that [`shader`] made; programs made from it may break rules.
     pub fn lower(&self, program: &Program) -> Result<Kernel, LowerError> {
-        let options = kernel::Options {
-            projection: std::array::from_fn(|i| self.stages[i].projection),
-            ..kernel::Options::default()
-        };
-        kernel::lower(program, &options)
+        kernel::lower(program, &lowering(self.model, self.policies, &self.stages))
     }
 
     /// What the interpreter runs a kernel of this shader in.
@@ -280,8 +294,20 @@ impl Generated {
     }
 }
 
+/// What a shader is lowered with.
+fn lowering(model: Model, policies: Policies, stages: &[Stage; STAGES]) -> kernel::Options {
+    kernel::Options {
+        projection: std::array::from_fn(|i| stages[i].projection),
+        model,
+        policies,
+        ..kernel::Options::default()
+    }
+}
+
 /// Writes a shader. The same seed and options give the same shader, on every platform whose `exp2` and `log2` agree
 /// in the first bits: comparable shaders are chosen by what they compute.
+///
+/// `textures` are those of [`Options::model`].
 pub fn shader(random: &mut Random, options: &Options, textures: &Textures) -> Generated {
     let version = options.version;
     let two_phases = version.row().phases > 1 && random.chance(options.weights.phases);
@@ -368,10 +394,18 @@ fn finish(maker: Maker) -> Generated {
     let is_defined = |index: u32| defined.get(index as usize) == Some(&true);
     let value = |index: u32| all.get(index as usize).copied().unwrap_or_default();
     let (inside, outside): (Vec<u32>, Vec<u32>) = used.into_iter().partition(|i| is_defined(*i));
+    // Some are defined and set: one of both numbers counts, and the other would show.
+    let share = maker.options.weights.contested;
+    let contested: Vec<u32> = (inside.iter().copied())
+        .filter(|_| maker.random.chance(share))
+        .collect();
+    let idle = |index: u32| value(index).map(|x| 0.75 - x);
+    let always = maker.options.policies.def == DefLifetime::Always;
     let definitions = inside.into_iter().map(|index| {
+        let idles = !always && contested.contains(&index);
         Statement::Def(Def {
             register: Register::new(RegisterFile::Const, index),
-            value: value(index),
+            value: if idles { idle(index) } else { value(index) },
             co_issue: false,
             span: HERE,
             register_span: HERE,
@@ -384,7 +418,15 @@ fn finish(maker: Maker) -> Generated {
         program,
         listing,
         inputs: maker.inputs,
-        constants: outside.into_iter().map(|i| (i, value(i))).collect(),
+        constants: (outside.into_iter().map(|i| (i, value(i))))
+            .chain(
+                contested
+                    .iter()
+                    .map(|i| (*i, if always { idle(*i) } else { value(*i) })),
+            )
+            .collect(),
+        model: maker.options.model,
+        policies: maker.options.policies,
         stages: maker.stages,
         outcomes: Vec::new(),
         killed: [false; INVOCATIONS],

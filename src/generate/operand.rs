@@ -131,6 +131,8 @@ impl Maker<'_> {
         if want.shape.modifiers == ModifierRule::Matrix {
             return self.matrix(want);
         }
+        let bare =
+            self.weights().bare_scalars > 0 && self.random.chance(self.weights().bare_scalars);
         let mut candidates: Vec<(Register, u32)> = Vec::new();
         for file in want.shape.files.iter() {
             for index in self.numbers(file) {
@@ -146,10 +148,10 @@ impl Maker<'_> {
         candidates.retain(|(register, _)| {
             !(want.apart && *register == want.destination.register)
                 && ports.allow(*register)
-                && !self.swizzles(want, *register).is_empty()
+                && !self.swizzles(want, *register, bare).is_empty()
         });
         let register = self.random.weighted(&candidates)?;
-        let swizzles = self.swizzles(want, register);
+        let swizzles = self.swizzles(want, register, bare);
         let plain = swizzles.contains(&Swizzle::IDENTITY);
         let swizzle = if plain && !self.random.chance(self.weights().swizzles) {
             Swizzle::IDENTITY
@@ -191,13 +193,14 @@ impl Maker<'_> {
         })
     }
 
-    /// The swizzles with which a register can be read there; of vertex shaders a few of them.
-    fn swizzles(&self, want: &Want, register: Register) -> Vec<Swizzle> {
+    /// The swizzles with which a register can be read there; of vertex shaders a few of them. `bare`: scalar instructions, too,
+    /// have any.
+    fn swizzles(&self, want: &Want, register: Register, bare: bool) -> Vec<Swizzle> {
         let readable = self.registers.readable(register);
         let one = |c: usize| Swizzle::replicate(c as u8);
         let mut swizzles: Vec<Swizzle> = match (self.version.kind(), self.version) {
             (ShaderKind::Vertex, _) => {
-                let scalar = want.shape.slots == Slots::Fixed(WriteMask::W);
+                let scalar = want.shape.slots == Slots::Fixed(WriteMask::W) && !bare;
                 let mut some: Vec<Swizzle> = readable.components().map(one).collect();
                 if !scalar {
                     some.push(Swizzle::IDENTITY);
@@ -218,7 +221,12 @@ impl Maker<'_> {
                 some
             }
         };
-        swizzles.retain(|swizzle| readable.contains(swizzle.reads(want.slots)));
+        // Which slot a scalar instruction reads is a choice: both hold something.
+        let slots = match want.shape.slots {
+            Slots::Fixed(WriteMask::W) => want.slots.or(WriteMask::X),
+            _ => want.slots,
+        };
+        swizzles.retain(|swizzle| readable.contains(swizzle.reads(slots)));
         swizzles
     }
 

@@ -59,6 +59,7 @@ impl Probe {
     ) -> Option<Probe> {
         let context = &Context {
             precision: &options.precision,
+            of_zero: kernel.policies.of_zero,
             sampling,
         };
         let mut next = self.clone();
@@ -182,7 +183,11 @@ impl Probe {
             let values = self.machine.lane(step.destination, lane);
             for c in step.mask.components() {
                 let value = f64::from(values[c]);
-                let error = context.finish(step, bound[c]).error;
+                let mut error = context.finish(step, bound[c]).error;
+                if error > 0.0 && bound[c].value.abs() < f64::from(f32::MIN_POSITIVE) {
+                    // The result, or what comes of it, may be flushed to zero.
+                    error += f64::from(f32::MIN_POSITIVE);
+                }
                 let finite = value.is_finite() && error.is_finite();
                 if !finite && options.largest_value == f64::INFINITY {
                     // No difference is small here: executors have the same or part.
@@ -190,8 +195,10 @@ impl Probe {
                     continue;
                 }
                 let near = error <= options.largest_error * value.abs().max(1.0);
+                // What stands for infinity is the same everywhere.
+                let endless = value.abs() == f64::from(context.of_zero.value()) && error == 0.0;
                 // Written so that NaN is refused.
-                if !(value.abs() <= options.largest_value && near) {
+                if !(value.abs() <= options.largest_value && near) && !endless {
                     return None;
                 }
                 errors[lane][c] = error;

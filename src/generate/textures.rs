@@ -1,7 +1,10 @@
 //! The textures that generated shaders sample.
 
 use crate::exec;
-use crate::texture::{Filter, Format, Sampler, Texture, TextureError, TextureKind};
+use crate::policy::Model;
+use crate::texture::{
+    Filter, Format, Sampler, Signed, Texture, TextureError, TextureKind, Weights,
+};
 
 /// One texture of every kind, unsigned and signed, 8 bits a channel.
 ///
@@ -10,6 +13,7 @@ use crate::texture::{Filter, Format, Sampler, Texture, TextureError, TextureKind
 #[derive(Clone, Debug)]
 pub struct Textures {
     textures: Vec<(Texture, f64)>,
+    weights: Weights,
 }
 
 /// Edge of the flat texture and of the faces of the cube, in texels.
@@ -24,20 +28,36 @@ const KINDS: [TextureKind; 3] = [
 ];
 
 impl Textures {
-    /// Makes the textures.
+    /// Makes the textures, as [`Model::Float`] samples them.
     ///
     /// # Errors
     /// None that can happen: the sizes fit the kinds.
     pub fn new() -> Result<Self, TextureError> {
+        Self::with_model(Model::Float)
+    }
+
+    /// Makes the textures, as a hardware model decodes and filters them.
+    ///
+    /// # Errors
+    /// As [`Textures::new`].
+    pub fn with_model(model: Model) -> Result<Self, TextureError> {
+        let codes = match model.has_lopsided_texels() {
+            true => Signed::Lopsided,
+            false => Signed::Symmetric,
+        };
         let mut textures = Vec::with_capacity(2 * KINDS.len());
         for kind in KINDS {
             for signed in [false, true] {
-                let texture = make(kind, signed)?;
+                let texture = make(kind, signed, codes)?;
                 let slope = slope(&texture);
                 textures.push((texture, slope));
             }
         }
-        Ok(Self { textures })
+        let weights = match model.has_coarse_filters() {
+            true => Weights::EightBits,
+            false => Weights::Full,
+        };
+        Ok(Self { textures, weights })
     }
 
     fn row(&self, kind: TextureKind, signed: bool) -> Option<&(Texture, f64)> {
@@ -55,12 +75,25 @@ impl Textures {
         self.row(kind, signed).map_or(0.0, |(_, slope)| *slope)
     }
 
+    /// How far apart coordinates are that make neighbouring weights; 0 where weights have all bits of a float.
+    pub(super) fn weight_step(&self, kind: TextureKind) -> f64 {
+        let edge = match kind {
+            TextureKind::Volume => DEPTH,
+            TextureKind::Texture2D | TextureKind::Cube => EDGE,
+        };
+        match self.weights {
+            Weights::EightBits => 1.0 / (256.0 * f64::from(edge)),
+            Weights::Full => 0.0,
+        }
+    }
+
     /// How they are sampled: linear filters without mip levels, wrapped. Point filters and mip levels would make
     /// steps where executors are allowed to differ.
-    pub fn sampler() -> Sampler {
+    pub fn sampler(&self) -> Sampler {
         Sampler {
             mag: Filter::Linear,
             min: Filter::Linear,
+            weights: self.weights,
             ..Sampler::default()
         }
     }
@@ -69,7 +102,7 @@ impl Textures {
     pub(super) fn stage(&self, stage: &super::Stage) -> exec::Stage<'_> {
         exec::Stage {
             texture: self.get(stage.kind, stage.signed),
-            sampler: Self::sampler(),
+            sampler: self.sampler(),
             bump: stage.bump,
         }
     }
@@ -79,7 +112,7 @@ impl Textures {
 /// where filters inside of the face and across its edge part.
 pub(super) const CUBE_MARGIN: f64 = 1.0 / EDGE as f64;
 
-fn make(kind: TextureKind, signed: bool) -> Result<Texture, TextureError> {
+fn make(kind: TextureKind, signed: bool, codes: Signed) -> Result<Texture, TextureError> {
     let size = match kind {
         TextureKind::Volume => [DEPTH; 3],
         TextureKind::Texture2D | TextureKind::Cube => [EDGE, EDGE, 1],
@@ -106,7 +139,7 @@ fn make(kind: TextureKind, signed: bool) -> Result<Texture, TextureError> {
     } else {
         Format::Rgba8
     };
-    Texture::from_texels(kind, format, size, &[texels])
+    Texture::from_texels_signed(kind, format, size, &[texels], codes)
 }
 
 /// A wave along each axis, out of step from channel to channel; each axis counts differently.

@@ -1,9 +1,10 @@
 //! A mismatch as a shader unit test.
 
 use super::{Difference, Mismatch, Subject};
-use crate::generate::{INVOCATIONS, Stage, Textures};
+use crate::generate::{Generated, INVOCATIONS, Stage, Textures};
 use crate::isa::ShaderKind;
 use crate::kernel::{Projection, Slot};
+use crate::policy::{Model, Policies, Policy};
 use crate::semantics::BumpState;
 use crate::texture::{Texture, TextureKind};
 use std::fmt::Write;
@@ -22,6 +23,7 @@ pub fn case_text(mismatch: &Mismatch, textures: &Textures) -> String {
         }
     }
     let _ = writeln!(text, "name = \"{version}, seed {}\"", mismatch.seed);
+    computing_text(&mut text, generated);
     let (shader, constants) = if vertex {
         ("vs", "vs_constants")
     } else {
@@ -48,6 +50,20 @@ pub fn case_text(mismatch: &Mismatch, textures: &Textures) -> String {
         invocation_text(&mut text, mismatch, invocation);
     }
     text
+}
+
+/// The model and the policies, where they are not the usual ones.
+fn computing_text(text: &mut String, generated: &Generated) {
+    if generated.model != Model::default() {
+        let _ = writeln!(text, "model = \"{}\"", generated.model);
+    }
+    let usual = Policies::default();
+    for policy in Policy::all() {
+        let value = policy.get(&generated.policies);
+        if value != policy.get(&usual) {
+            let _ = writeln!(text, "policies.{} = \"{value}\"", policy.name);
+        }
+    }
 }
 
 fn invocation_text(text: &mut String, mismatch: &Mismatch, invocation: usize) {

@@ -18,9 +18,10 @@ pub use case::{case_text, describe};
 pub use coverage::{Coverage, Group};
 pub use subject::{Change, Comparison, Difference, Subject, compare, run_together};
 
-use crate::generate::{Precision, Textures};
+use crate::generate::{self, Precision, Textures, Weights};
 use crate::gpu::{Device, GpuError};
 use crate::isa::Version;
+use crate::policy::{Model, Policies};
 use crate::texture::TextureError;
 use std::fmt;
 use std::sync::Mutex;
@@ -44,6 +45,12 @@ pub struct Plan {
     pub versions: Vec<Version>,
     /// How exact the devices are.
     pub precision: Precision,
+    /// The numbers that shaders compute with.
+    pub model: Model,
+    /// What they do where there is a choice.
+    pub policies: Policies,
+    /// How often what occurs in them.
+    pub weights: Weights,
 }
 
 impl Plan {
@@ -59,6 +66,17 @@ impl Plan {
             _ => self.seed.wrapping_add(number.wrapping_mul(FACTOR)) & ((1 << 53) - 1),
         };
         Some((*version, seed))
+    }
+
+    /// What the shaders of a version are made with.
+    pub fn options(&self, version: Version) -> generate::Options {
+        generate::Options {
+            precision: self.precision,
+            model: self.model,
+            policies: self.policies,
+            weights: self.weights.clone(),
+            ..generate::Options::new(version)
+        }
     }
 
     /// The shaders of a unit of work, by their numbers: a batch of each version.
@@ -148,7 +166,7 @@ pub fn run(
     change: Option<Change<'_>>,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Report, MatchError> {
-    let textures = Textures::new().map_err(MatchError::Texture)?;
+    let textures = Textures::with_model(plan.model).map_err(MatchError::Texture)?;
     let next = AtomicU64::new(0);
     let stop = AtomicBool::new(false);
     let report = Mutex::new(Ok(Report::default()));
@@ -209,7 +227,7 @@ fn batch(
 ) -> Result<Report, MatchError> {
     let made = numbers.iter().filter_map(|number| {
         let (version, seed) = plan.shader(*number)?;
-        let subject = Subject::new(version, seed, plan.precision, textures);
+        let subject = Subject::new(plan.options(version), seed, textures);
         Some(((*number, seed), subject))
     });
     let (names, subjects): (Vec<_>, Vec<_>) = made.unzip();
@@ -240,7 +258,8 @@ pub fn shrink(
     mismatch: &Mismatch,
     change: Option<Change<'_>>,
 ) -> Result<Mismatch, MatchError> {
-    let textures = Textures::new().map_err(MatchError::Texture)?;
+    let model = mismatch.subject.generated.model;
+    let textures = Textures::with_model(model).map_err(MatchError::Texture)?;
     let mut failure = None;
     let mut best = mismatch.clone();
     let program = mismatch.subject.generated.program.clone();

@@ -2,10 +2,10 @@
 
 use super::MatchError;
 use crate::diagnostic::SourceMap;
-use crate::exec::bind_constants;
-use crate::generate::{self, Generated, INVOCATIONS, Outcome, Precision, Random, Textures};
+use crate::exec::{bind_constants, overrides_definitions};
+use crate::generate::{self, Generated, INVOCATIONS, Outcome, Random, Textures};
 use crate::gpu::{Batch, Device, GpuError, Program, Results, StageUniforms, Uniforms};
-use crate::isa::{ShaderKind, Version};
+use crate::isa::ShaderKind;
 use crate::kernel::{Kernel, Slot};
 use crate::raster::{FogDistance, FogMode, RenderState};
 use crate::semantics::saturate;
@@ -69,13 +69,10 @@ pub struct Comparison {
 }
 
 impl Subject {
-    /// The shader of a seed. The listing is the one that [`generate::shader`] writes with [`generate::Options::new`] for this
-    /// version and precision.
-    pub fn new(version: Version, seed: u64, precision: Precision, textures: &Textures) -> Self {
-        let options = generate::Options {
-            precision,
-            ..generate::Options::new(version)
-        };
+    /// The shader of a seed. The listing is the one that [`generate::shader`] writes with these options; `textures` are those of
+    /// their model.
+    pub fn new(options: generate::Options, seed: u64, textures: &Textures) -> Self {
+        let version = options.version;
         let generated = generate::shader(&mut Random::new(seed), &options, textures);
         // Not the numbers that the shader was made of.
         let mut random = Random::new(!seed);
@@ -83,7 +80,7 @@ impl Subject {
             level_zero: true,
             half_pixel: false,
             exact_dots: random.chance(50),
-            overridable_definitions: random.chance(25),
+            overridable_definitions: random.chance(25) || overrides(&generated),
             fog: (version.kind() == ShaderKind::Vertex).then_some(Fog {
                 table: FogMode::None,
                 distance: FogDistance::Z,
@@ -94,6 +91,7 @@ impl Subject {
         for (stage, made) in translation.stages.iter_mut().zip(&generated.stages) {
             stage.texture = Some(made.kind);
             stage.seamless = seamless;
+            stage.weights = textures.sampler().weights;
         }
         Self {
             generated,
@@ -197,6 +195,14 @@ impl Subject {
         }
         comparison
     }
+}
+
+/// Whether a constant is set that the shader defines, and replaces it.
+fn overrides(generated: &Generated) -> bool {
+    let kernel = generated.lower(&generated.program);
+    kernel.is_ok_and(|kernel| {
+        overrides_definitions(&kernel, &bind_constants(&kernel, &generated.constants))
+    })
 }
 
 impl Comparison {
@@ -308,7 +314,7 @@ fn program<'a>(
         },
         textures: stages.each_ref().map(|stage| {
             let texture = textures.get(stage.kind, stage.signed)?;
-            Some((texture, Textures::sampler()))
+            Some((texture, textures.sampler()))
         }),
         inputs: (generated.inputs.iter())
             .map(|(slot, values)| (*slot, values.as_slice()))

@@ -19,6 +19,9 @@ fn plan(count: u64) -> Plan {
         seed: 7,
         versions: Version::all().collect(),
         precision: Precision::default(),
+        model: Model::default(),
+        policies: Policies::default(),
+        weights: Weights::default(),
     }
 }
 
@@ -30,7 +33,7 @@ fn mismatches_become_cases_that_the_interpreter_passes() {
     let (mut checked, mut sampled) = (0, 0);
     for number in 0..210 {
         let (version, seed) = plan(210).shader(number).unwrap();
-        let subject = Subject::new(version, seed, Precision::default(), &textures);
+        let subject = Subject::new(plan(210).options(version), seed, &textures);
         let mismatch = Mismatch {
             number,
             seed,
@@ -104,8 +107,7 @@ fn everything_that_is_possible_is_reached() {
     for version in Version::all() {
         let mut coverage = Coverage::default();
         for seed in 0..1500 {
-            let precision = Precision::default();
-            let subject = Subject::new(version, seed, precision, &textures);
+            let subject = Subject::new(plan(1).options(version), seed, &textures);
             coverage.count(&subject.generated, &textures);
         }
         assert_eq!(coverage.missing(version), [], "{version}");

@@ -42,6 +42,11 @@ impl<'r> Files<'r> {
         }
     }
 
+    /// What the file is loaded with, for files that choose for themselves.
+    pub(crate) fn options_mut(&mut self) -> &mut LoadOptions {
+        &mut self.options
+    }
+
     /// What shaders are lowered with, whatever their texture stages are.
     pub(crate) fn lowering(&self) -> kernel::Options {
         kernel::Options {

@@ -6,7 +6,7 @@ use super::error::{Problems, rules};
 use super::shader::Shader;
 use super::{Scene, TextureSource};
 use crate::diagnostic::Span;
-use crate::exec::{Environment, STAGES, bind_constants, overrides_definitions};
+use crate::exec::{Environment, STAGES, bind_constants_over, overrides_definitions};
 use crate::kernel::Kernel;
 use crate::mesh::Mesh;
 use crate::raster::{FogDistance, RenderState, Surface, Topology};
@@ -124,6 +124,7 @@ impl Scene {
     /// those that it reads itself, and then the picture.
     pub fn passes(&self, size: [u32; 2]) -> Vec<Pass<'_>> {
         let needed = self.needed_targets();
+        let mut left = Left::default();
         let mut passes = Vec::new();
         for &number in self.order.iter().filter(|number| needed[**number]) {
             let target = &self.targets[number];
@@ -136,7 +137,7 @@ impl Scene {
                     },
                     size: target.size,
                     surface: target.surface,
-                    draws: self.prepare(&target.draws, view, target.size),
+                    draws: self.prepare(&target.draws, view, target.size, &mut left),
                 });
             }
         }
@@ -144,7 +145,7 @@ impl Scene {
             output: Output::Picture,
             size,
             surface: self.surface,
-            draws: self.prepare(&self.picture, self.picture_matrices(size), size),
+            draws: self.prepare(&self.picture, self.picture_matrices(size), size, &mut left),
         });
         passes
     }
@@ -159,6 +160,7 @@ impl Scene {
         draws: &[usize],
         view: (Mat4, Mat4),
         size: [u32; 2],
+        left: &mut Left,
     ) -> Vec<PreparedDraw<'_>> {
         draws
             .iter()
@@ -180,13 +182,13 @@ impl Scene {
                     topology: draw.topology,
                     own_indices: draw.indices.as_ref().map(|at| at.value.as_slice()),
                     vertex: &draw.vertex,
-                    vertex_constants: bound(
+                    vertex_constants: left.vertex.bind(
                         &draw.vertex.kernel,
                         &draw.vertex_constants,
                         &surroundings,
                     ),
                     pixel: &draw.pixel,
-                    pixel_constants: bound(
+                    pixel_constants: left.pixel.bind(
                         &draw.pixel.kernel,
                         &draw.pixel_constants,
                         &surroundings,
@@ -275,13 +277,44 @@ impl Scene {
     }
 }
 
-fn bound(kernel: &Kernel, constants: &[Constant], surroundings: &Surroundings) -> Vec<[f32; 4]> {
-    let set: Vec<(u32, [f32; 4])> = constants
-        .iter()
-        .filter_map(|constant| constant.bind(surroundings))
-        .flatten()
-        .collect();
-    bind_constants(kernel, &set)
+/// What `def` has left in constant registers for the draws behind it.
+#[derive(Default)]
+struct Left {
+    vertex: LeftOfKind,
+    pixel: LeftOfKind,
+}
+
+/// The registers that shaders of a kind have defined so far, with what they hold.
+#[derive(Default)]
+struct LeftOfKind(Vec<(u32, [f32; 4])>);
+
+impl LeftOfKind {
+    /// The registers of a draw. What a draw sets is its own, but for registers that a shader has defined: Direct3D 8 has one
+    /// file of constants, which definitions are loaded into.
+    fn bind(
+        &mut self,
+        kernel: &Kernel,
+        constants: &[Constant],
+        surroundings: &Surroundings,
+    ) -> Vec<[f32; 4]> {
+        let set: Vec<(u32, [f32; 4])> = constants
+            .iter()
+            .filter_map(|constant| constant.bind(surroundings))
+            .flatten()
+            .collect();
+        let bound = bind_constants_over(kernel, &self.0, &set);
+        for (index, _) in &kernel.definitions {
+            if !self.0.iter().any(|(known, _)| known == index) {
+                self.0.push((*index, [0.0; 4]));
+            }
+        }
+        for (index, value) in &mut self.0 {
+            if let Some(held) = bound.get(*index as usize) {
+                *value = *held;
+            }
+        }
+        bound
+    }
 }
 
 /// Direct3D 8 decides by the fourth column of the projection matrix, (0, 0, 0, 1) or not, which distance table fog uses.

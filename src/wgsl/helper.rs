@@ -23,7 +23,11 @@ pub(super) enum Helper {
     PartialPrecision,
     ExpP,
     LogP(OfZero),
-    Lit(OfZero),
+    /// `ieee`: 0 times infinity is NaN.
+    Lit {
+        of_zero: OfZero,
+        ieee: bool,
+    },
     Divide,
     Mirror,
     /// Relative addressing of this many constants.
@@ -46,6 +50,8 @@ pub(super) enum Helper {
     ByHand(ByHand),
     /// Numbers of a model, vectors with this many components.
     Held(Model, usize),
+    /// The same of numbers that may be NaN.
+    HeldAny(Model, usize),
     LinearFog,
     FogFactor,
     Address,
@@ -80,7 +86,7 @@ impl Helper {
             Self::PartialPrecision => "partial_precision".into(),
             Self::ExpP => "expp".into(),
             Self::LogP(_) => "logp".into(),
-            Self::Lit(_) => "lit".into(),
+            Self::Lit { .. } => "lit".into(),
             Self::Divide => "divide".into(),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
@@ -104,6 +110,8 @@ impl Helper {
             Self::ByHand(sample) => sample.name(),
             Self::Held(model, 1) => model.name().into(),
             Self::Held(model, width) => format!("{model}_vec{width}"),
+            Self::HeldAny(model, 1) => format!("{model}_or_0"),
+            Self::HeldAny(model, width) => format!("{model}_or_0_vec{width}"),
             Self::LinearFog => "linear_fog".into(),
             Self::FogFactor => "fog_factor".into(),
             Self::Address => "address".into(),
@@ -116,7 +124,8 @@ impl Helper {
             Self::DotZero(width) => vec![Self::MulZero(width)],
             Self::ExpP => vec![Self::PartialPrecision],
             Self::LogP(of_zero) => vec![Self::Log2(of_zero), Self::PartialPrecision],
-            Self::Lit(of_zero) => vec![Self::Log2(of_zero)],
+            Self::HeldAny(model, width) => vec![Self::Held(model, width)],
+            Self::Lit { of_zero, .. } => vec![Self::Log2(of_zero)],
             Self::Rcp(OfZero::Infinity)
             | Self::Rsq(OfZero::Infinity)
             | Self::Log2(OfZero::Infinity) => vec![Self::Infinity],
@@ -196,7 +205,7 @@ impl Helper {
                      return vec4f(exp2(floor(x)), fraction, partial_precision(exp2(x)), 1.0);\n}}\n"
             ),
             Self::PartialPrecision => PARTIAL_PRECISION.into(),
-            Self::Lit(_) => LIT.into(),
+            Self::Lit { ieee, .. } => lit(ieee),
             Self::Divide => DIVIDE.into(),
             Self::Mirror => MIRROR.into(),
             Self::CubeFace => CUBE_FACE.into(),
@@ -214,6 +223,7 @@ impl Helper {
             Self::Filtered(filter) => filter.text(),
             Self::ByHand(sample) => sample.text(),
             Self::Held(model, width) => held(&self.name(), model, width),
+            Self::HeldAny(model, width) => held_any(&self.name(), model, width),
             Self::LinearFog => LINEAR_FOG.into(),
             Self::FogFactor => FOG_FACTOR.into(),
             Self::Address => ADDRESS.into(),
@@ -269,16 +279,22 @@ fn partial_precision(x: f32) -> f32 {
 }
 ";
 
-const LIT: &str = "\
-// Lighting coefficients from N·L, N·H and the power of the specular term.
-fn lit(n_l: f32, n_h: f32, power: f32) -> vec4f {
-    let is_nan = (bitcast<u32>(power) & 0x7fffffffu) > 0x7f800000u;
-    let exponent = select(clamp(power, -127.99609, 127.99609), 0.0, is_nan);
-    let specular = select(exp2(exponent * log2_abs(n_h)), 1.0, exponent == 0.0);
-    let diffuse = select(0.0, n_l, n_l > 0.0);
-    return vec4f(1.0, diffuse, select(0.0, specular, n_l > 0.0 && n_h > 0.0), 1.0);
+fn lit(ieee: bool) -> String {
+    let power = "exp2(exponent * log2_abs(n_h))";
+    let specular = match ieee {
+        true => power.to_string(),
+        false => format!("select({power}, 1.0, exponent == 0.0)"),
+    };
+    format!(
+        "// Lighting coefficients from N·L, N·H and the power of the specular term.\n\
+         fn lit(n_l: f32, n_h: f32, power: f32) -> vec4f {{\n    \
+             let is_nan = (bitcast<u32>(power) & 0x7fffffffu) > 0x7f800000u;\n    \
+             let exponent = select(clamp(power, -127.99609, 127.99609), 0.0, is_nan);\n    \
+             let specular = {specular};\n    \
+             let diffuse = select(0.0, n_l, n_l > 0.0);\n    \
+             return vec4f(1.0, diffuse, select(0.0, specular, n_l > 0.0 && n_h > 0.0), 1.0);\n}}\n"
+    )
 }
-";
 
 const DIVIDE: &str = "\
 // Coordinates over their divisor; 1 where that is 0.
@@ -404,6 +420,20 @@ fn held(name: &str, model: Model, width: usize) -> String {
         "// x as the registers of {model} hold it: -{of} to {of} in steps of 1/{steps}.\n\
          fn {name}(x: {kind}) -> {kind} {{\n    \
              return floor(clamp(x, {least}, {greatest}) * {steps:?} + 0.5) / {steps:?};\n}}\n"
+    )
+}
+
+fn held_any(name: &str, model: Model, width: usize) -> String {
+    let (float, whole) = match width {
+        1 => ("f32".to_string(), "u32".to_string()),
+        _ => (format!("vec{width}f"), format!("vec{width}u")),
+    };
+    let finite = Helper::Held(model, width).name();
+    format!(
+        "// The same; NaN, which they cannot hold, is 0.\n\
+         fn {name}(x: {float}) -> {float} {{\n    \
+             let is_nan = (bitcast<{whole}>(x) & {whole}(0x7fffffffu)) > {whole}(0x7f800000u);\n    \
+             return select({finite}(x), {float}(), is_nan);\n}}\n"
     )
 }
 

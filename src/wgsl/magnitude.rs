@@ -158,8 +158,8 @@ impl Magnitudes {
         };
         match step.op {
             Op::Mul | Op::Mad => any_fails(step.mask),
-            Op::Dp3 => any_fails(WriteMask::XYZ),
-            Op::Dp4 => any_fails(WriteMask::ALL),
+            Op::Dp3 => any_fails(WriteMask::XYZ) || self.factors_overflow(a, b, WriteMask::XYZ),
+            Op::Dp4 => any_fails(WriteMask::ALL) || self.factors_overflow(a, b, WriteMask::ALL),
             Op::Dst => any_fails(WriteMask::Y.and(step.mask)),
             Op::Lrp => {
                 let rest = |slot: usize| Factor {
@@ -175,9 +175,34 @@ impl Magnitudes {
         }
     }
 
+    /// Whether a dot product may come out as NaN when compilers factor it: x·a + x·b as x·(a + b), with an x of 0 and a sum
+    /// beyond the largest number.
+    fn factors_overflow(&self, a: &Operand, b: &Operand, slots: WriteMask) -> bool {
+        let one_way = |x: &Operand, others: &Operand| {
+            slots.components().any(|slot| {
+                let same = |other: &usize| x.swizzle.slot(*other) == x.swizzle.slot(slot);
+                let together: Vec<usize> = slots.components().filter(same).collect();
+                let sum: f64 = (together.iter())
+                    .map(|slot| self.factor(others, *slot).most)
+                    .sum();
+                together.len() > 1 && self.factor(x, slot).zero && limited(sum) == UNBOUNDED
+            })
+        };
+        one_way(a, b) || one_way(b, a)
+    }
+
     /// Whether no slot of an operand that the mask has is infinite or NaN.
     pub(super) fn is_finite(&self, operand: &Operand, slots: WriteMask) -> bool {
         (slots.components()).all(|slot| self.factor(operand, slot).most < UNBOUNDED)
+    }
+
+    /// Whether what a step computes is neither infinite nor NaN before it becomes a number of a model.
+    pub(super) fn gives_finite(&self, step: &Step) -> bool {
+        let scale = 2f64.powi(step.result.shift.into());
+        // Saturation takes NaN to 0.
+        step.result.saturate
+            || (step.mask.components())
+                .all(|component| limited(self.bound(step, component) * scale) < UNBOUNDED)
     }
 
     /// Whether a component of a register may be infinite or NaN by now.

@@ -49,7 +49,8 @@ impl Body<'_> {
         };
         let mut read = select(name, width, &components, letters);
         if !self.is_held(step.reads, operand, slots) {
-            read = self.held(step.reads, &read);
+            let finite = self.magnitudes.is_finite(operand, slots);
+            read = self.held(step.reads, &read, finite);
         }
         if step.reads == Model::Gf3 {
             read = clamped(read, operand.modifier);
@@ -64,14 +65,16 @@ impl Body<'_> {
             return value;
         }
         let whole = value.whole();
-        Value::Whole(self.held(step.writes, &whole))
+        let finite = self.magnitudes.gives_finite(step);
+        Value::Whole(self.held(step.writes, &whole, finite))
     }
 
-    /// A number as the registers of a model hold it.
-    fn held(&mut self, model: Model, number: &Expression) -> Expression {
-        let helper = match model {
-            Model::Float => return number.clone(),
-            Model::Gf3 | Model::R200 => Helper::Held(model, number.width),
+    /// A number as the registers of a model hold it. `finite`: it is not NaN.
+    fn held(&mut self, model: Model, number: &Expression, finite: bool) -> Expression {
+        let helper = match (model, finite) {
+            (Model::Float, _) => return number.clone(),
+            (_, true) => Helper::Held(model, number.width),
+            (_, false) => Helper::HeldAny(model, number.width),
         };
         let name = self.helpers.call(helper);
         Expression::call(&name, &[number.text.as_str()], number.width)
@@ -118,13 +121,13 @@ impl Body<'_> {
                 Expression::new(format!("clamp({set}, vec4f(-1.0), vec4f(1.0))"), 4)
             }
         };
-        self.held(model, &clamped)
+        self.held(model, &clamped, true)
     }
 
     /// A colour that comes from the vertices.
     pub(super) fn color(&mut self, name: &str) -> Expression {
         let color = Expression::new(format!("saturate(in.{name})"), 4);
-        self.held(self.stage.kernel.model, &color)
+        self.held(self.stage.kernel.model, &color, true)
     }
 }
 

@@ -8,7 +8,7 @@ use super::texels::{Argument, ByHand};
 use crate::isa::WriteMask;
 use crate::isa::operand::XYZW;
 use crate::kernel::{Op, Step};
-use crate::policy::Model;
+use crate::policy::{Model, ZeroProduct};
 use crate::texture::TextureKind;
 
 impl Body<'_> {
@@ -91,7 +91,8 @@ impl Body<'_> {
             }
             Op::Lit => {
                 let arguments = [one(self, 0, 0), one(self, 0, 1), one(self, 0, 3)];
-                let all = self.called(Helper::Lit(of_zero), &arguments, 4);
+                let ieee = self.stage.kernel.policies.zero_product == ZeroProduct::Ieee;
+                let all = self.called(Helper::Lit { of_zero, ieee }, &arguments, 4);
                 components(&all, mask)
             }
             Op::Dst => {

@@ -450,7 +450,7 @@ fn arithmetic(version: Version, seed: u64, software: bool, textures: &Textures) 
         generated,
         translation: wgsl::Options {
             exact_dots: true,
-            ..Subject::new(version, seed, Precision::default(), textures).translation
+            ..Subject::new(generate::Options::new(version), seed, textures).translation
         },
         options,
     }

@@ -11,6 +11,7 @@ mod frames;
 mod matching;
 mod models;
 mod pictures;
+mod policies;
 mod registers;
 mod sampling;
 mod states;

@@ -1,9 +1,10 @@
 //! Generated shaders: what `texcrd fuzz-match` does, in small, and that it would find what is wrong.
 
-use texcrd::generate::{Precision, Textures};
+use texcrd::generate::{Precision, Textures, Weights};
 use texcrd::gpu::Device;
 use texcrd::isa::Version;
 use texcrd::matching::{self, Change, Mismatch, Plan, Report};
+use texcrd::policy::{Model, Policies};
 
 fn plan(count: u64, versions: Vec<Version>) -> Plan {
     Plan {
@@ -12,6 +13,9 @@ fn plan(count: u64, versions: Vec<Version>) -> Plan {
         versions,
         // What WGSL and Vulkan promise, derived in docs/matching.md.
         precision: Precision::default(),
+        model: Model::default(),
+        policies: Policies::default(),
+        weights: Weights::default(),
     }
 }
 

@@ -78,6 +78,8 @@ fn without_a_name_there_is_a_list() {
         "ps.1.4\n",
         "M12,",
         "D3DVSD_REG,",
+        "models, float, gf3, r200\n",
+        "policies, zero-product, rcp-zero, scalar, logp, def\n",
     ] {
         assert!(ran.out.contains(name), "{name} in\n{}", ran.out);
     }
@@ -98,4 +100,22 @@ fn programs_read_json() {
     assert_eq!(sat["kind"], "modifier");
     let facts = &cmp["parts"][1]["facts"];
     assert_eq!(facts[1], serde_json::json!(["token", "0x58"]));
+}
+
+#[test]
+fn models_and_policies_are_told() {
+    let ran = texcrd(&["explain", "policies"]);
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
+    for part in ["zero-product", "when-set", "always", "--policy NAME=VALUE"] {
+        assert!(ran.out.contains(part), "{part} in\n{}", ran.out);
+    }
+    let ran = texcrd(&["explain", "models", "gf3", "rcp-zero", "--format", "json"]);
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
+    let kinds: Vec<String> = (ran.out.lines())
+        .map(|line| {
+            let page: serde_json::Value = serde_json::from_str(line).expect("an object a line");
+            page["kind"].as_str().expect("a text").to_string()
+        })
+        .collect();
+    assert_eq!(kinds, ["model", "model", "policy"]);
 }

@@ -17,7 +17,7 @@ fn everything_is_found_by_its_name() {
     }
     for opcode in Opcode::all() {
         let upper = opcode.mnemonic().to_uppercase();
-        assert_eq!(named(&upper), opcode.mnemonic());
+        assert_eq!(named(&upper).split(' ').next(), Some(opcode.mnemonic()));
         for version in Version::all() {
             let page = find(&upper, Some(version)).unwrap().remove(0);
             assert_eq!(page.name, opcode.mnemonic());
@@ -61,6 +61,16 @@ fn names_are_what_people_type() {
         ("ps.1.4", "ps.1.4"),
         ("PS_1_4", "ps.1.4"),
         ("phase", "phase"),
+        ("models", "models"),
+        ("--model", "models"),
+        ("GF3", "gf3"),
+        ("policies", "policies"),
+        ("--policy", "policies"),
+        ("rcp-zero", "rcp-zero"),
+        ("Scalar=x", "scalar"),
+        // An instruction, and what is chosen of it.
+        ("logp", "logp logp"),
+        ("def", "def def"),
         ("0x12", "lrp"),
         ("0x40", "texcoord texcrd"),
         ("D3DSIO_TEX", "tex texld"),
@@ -88,6 +98,13 @@ fn what_is_unknown_may_be_near_something() {
         assert!(unknown.near.iter().any(|n| n == near), "{unknown}");
         assert!(unknown.to_string().contains(&format!("`{near}`")));
     }
+    assert!(
+        find("rcpzero", None)
+            .unwrap_err()
+            .near
+            .iter()
+            .any(|n| n == "rcp-zero")
+    );
     // The instructions of other models have owners.
     assert!(find("nrm", None).unwrap_err().owner.is_some());
     let long = "x".repeat(10_000);
@@ -111,6 +128,9 @@ fn what_is_unknown_may_be_near_something() {
         ".xyzwx",
         ".xg",
         "r0.q",
+        "scalar=z",
+        "gf3=1",
+        "=",
         "r4294967296",
         &long,
     ] {

@@ -185,3 +185,55 @@ fn a_page_of_a_rule_shows_what_is_said() {
         assert!(said, "{}", entry.rule.id);
     }
 }
+
+/// Section 4.3 of the register list.
+#[test]
+fn pages_of_models_hold_the_table_of_profiles() {
+    let page = |name: &str| explain::find(name, None).unwrap().remove(0).text(200);
+    let (gf3, r200) = (page("gf3"), page("r200"));
+    for (text, parts) in [
+        (
+            &gf3,
+            [
+                "steps of 1/255",
+                "-1 to 1",
+                "2 * max(0, x) - 1",
+                "code / 2^(b-1)",
+            ],
+        ),
+        (
+            &r200,
+            ["steps of 1/4096", "-8 to 8", "2 * x - 1", "steps of 1/256"],
+        ),
+    ] {
+        for part in parts {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+    }
+    assert!(page("float").contains("--model float; the default"));
+    let all = page("models");
+    assert!(
+        all.contains("gf3") && all.contains("steps of 1/4096"),
+        "{all}"
+    );
+}
+
+/// Every choice with all its values, from the one table.
+#[test]
+fn the_page_of_policies_lists_them_all() {
+    let text = explain::policies().text(200);
+    for policy in crate::policy::Policy::all() {
+        let alone = explain::policy(policy).text(200);
+        for value in policy.values() {
+            for text in [&text, &alone] {
+                assert!(
+                    text.contains(value.name) && text.contains(value.about),
+                    "{text}"
+                );
+            }
+        }
+        assert!(text.contains(policy.why) && alone.contains(policy.why));
+        let default = policy.values()[0].name;
+        assert!(alone.contains(&format!("default  {default}\n")), "{alone}");
+    }
+}

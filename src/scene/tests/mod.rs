@@ -1,4 +1,5 @@
 mod broken;
+mod definitions;
 mod documented;
 mod history;
 mod meanings;

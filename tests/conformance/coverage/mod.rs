@@ -8,6 +8,7 @@
 //! (`special`, `rules`), a table there says so, with the place.
 
 mod instructions;
+mod models;
 mod modifiers;
 mod probe;
 mod registers;

@@ -289,8 +289,12 @@ fn slot_of(case: &mut Case, kind: ShaderKind) -> &mut Option<Shader> {
 }
 
 /// What a listing was lowered with: which stages are projected can be seen in what came of it.
-fn options(shader: &Shader) -> Options {
-    let mut options = Options::default();
+pub(super) fn options(shader: &Shader) -> Options {
+    let mut options = Options {
+        model: shader.kernel.model,
+        policies: shader.kernel.policies,
+        ..Options::default()
+    };
     for (number, instruction) in shader.program.instructions().enumerate() {
         if !PROJECTED.contains(&instruction.opcode) {
             continue;
