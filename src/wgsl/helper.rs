@@ -22,7 +22,8 @@ pub(super) enum Helper {
     ExpP,
     LogP(OfZero),
     Lit(OfZero),
-    Divide,
+    /// Coordinates in so many dimensions.
+    Divide(usize),
     Mirror,
     /// Relative addressing of this many constants.
     ConstantAt(u32),
@@ -74,7 +75,8 @@ impl Helper {
             Self::ExpP => "expp".into(),
             Self::LogP(_) => "logp".into(),
             Self::Lit(_) => "lit".into(),
-            Self::Divide => "divide".into(),
+            Self::Divide(2) => "divide".into(),
+            Self::Divide(_) => "divide_xyz".into(),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
             Self::InsideLinear => "inside_linear".into(),
@@ -184,7 +186,7 @@ impl Helper {
             ),
             Self::PartialPrecision => PARTIAL_PRECISION.into(),
             Self::Lit(_) => LIT.into(),
-            Self::Divide => DIVIDE.into(),
+            Self::Divide(width) => divide(&self.name(), width),
             Self::Mirror => MIRROR.into(),
             Self::InsideLinear => INSIDE_LINEAR.into(),
             Self::InsidePoint => INSIDE_POINT.into(),
@@ -259,12 +261,16 @@ fn lit(n_l: f32, n_h: f32, power: f32) -> vec4f {
 }
 ";
 
-const DIVIDE: &str = "\
+fn divide(name: &str, width: usize) -> String {
+    format!(
+        "\
 // Coordinates over their divisor; 1 where that is 0.
-fn divide(x: vec2f, y: f32) -> vec2f {
-    return select(x / y, vec2f(1.0), y == 0.0);
+fn {name}(x: vec{width}f, y: f32) -> vec{width}f {{
+    return select(x / y, vec{width}f(1.0), y == 0.0);
+}}
+"
+    )
 }
-";
 
 const MIRROR: &str = "\
 // e mirrored at n, which need not have unit length; -e where n is 0.
