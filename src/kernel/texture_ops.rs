@@ -170,7 +170,7 @@ fn projected(lowering: &mut Lowering<'_>, m: usize, coordinates: Slot) -> Operan
     let op = match projection.unwrap_or_default() {
         Projection::None => return Operand::slot(coordinates),
         Projection::Third => Op::DivideZ,
-        Projection::Fourth => Op::DivideW,
+        Projection::Fourth => Op::Project,
     };
     let sources = vec![Operand::slot(coordinates)];
     lowering.push(op, Slot::COORDINATES, WriteMask::XYZ, sources);

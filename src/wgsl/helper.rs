@@ -28,7 +28,8 @@ pub(super) enum Helper {
         of_zero: OfZero,
         ieee: bool,
     },
-    Divide,
+    /// Coordinates in so many dimensions.
+    Divide(usize),
     Mirror,
     /// Relative addressing of this many constants.
     ConstantAt(u32),
@@ -87,7 +88,8 @@ impl Helper {
             Self::ExpP => "expp".into(),
             Self::LogP(_) => "logp".into(),
             Self::Lit { .. } => "lit".into(),
-            Self::Divide => "divide".into(),
+            Self::Divide(2) => "divide".into(),
+            Self::Divide(_) => "divide_xyz".into(),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
             Self::CubeFace => "cube_face".into(),
@@ -206,7 +208,7 @@ impl Helper {
             ),
             Self::PartialPrecision => PARTIAL_PRECISION.into(),
             Self::Lit { ieee, .. } => lit(ieee),
-            Self::Divide => DIVIDE.into(),
+            Self::Divide(width) => divide(&self.name(), width),
             Self::Mirror => MIRROR.into(),
             Self::CubeFace => CUBE_FACE.into(),
             Self::AlongFace => ALONG_FACE.into(),
@@ -296,12 +298,16 @@ fn lit(ieee: bool) -> String {
     )
 }
 
-const DIVIDE: &str = "\
+fn divide(name: &str, width: usize) -> String {
+    format!(
+        "\
 // Coordinates over their divisor; 1 where that is 0.
-fn divide(x: vec2f, y: f32) -> vec2f {
-    return select(x / y, vec2f(1.0), y == 0.0);
+fn {name}(x: vec{width}f, y: f32) -> vec{width}f {{
+    return select(x / y, vec{width}f(1.0), y == 0.0);
+}}
+"
+    )
 }
-";
 
 const MIRROR: &str = "\
 // e mirrored at n, which need not have unit length; -e where n is 0.

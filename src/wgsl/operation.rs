@@ -111,12 +111,18 @@ impl Body<'_> {
                 let divisor = if step.op == Op::DivideZ { 2 } else { 3 };
                 let xy = self.operand(step, 0, WriteMask::XY);
                 let arguments = [xy.spread(2), one(self, 0, divisor)];
-                let xy = self.called(Helper::Divide, &arguments, 2);
+                let xy = self.called(Helper::Divide(2), &arguments, 2);
                 planar(
                     xy,
                     mask,
                     [Expression::number("0.0"), Expression::number("0.0")],
                 )
+            }
+            Op::Project => {
+                let xyz = self.operand(step, 0, WriteMask::XYZ);
+                let arguments = [xyz.spread(3), one(self, 0, 3)];
+                let xyz = self.called(Helper::Divide(3), &arguments, 3);
+                components(&xyz, mask.and(WriteMask::XYZ))
             }
             Op::Bump(stage) => {
                 let at = self.operand(step, 0, WriteMask::XY);

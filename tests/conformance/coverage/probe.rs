@@ -317,7 +317,7 @@ pub(super) fn projection(kernel: &Kernel, instruction: usize) -> Option<Projecti
     let mut steps = kernel.steps.iter().filter(|s| s.origin == instruction);
     steps.find_map(|step| match step.op {
         Op::DivideZ => Some(Projection::Third),
-        Op::DivideW => Some(Projection::Fourth),
+        Op::DivideW | Op::Project => Some(Projection::Fourth),
         _ => None,
     })
 }

@@ -328,7 +328,7 @@ fn every_projection() {
         list.tick(&item(&line.title(), by), || {
             // The division becomes a copy.
             line.notices_steps(|step| {
-                if matches!(step.op, Op::DivideZ | Op::DivideW) {
+                if matches!(step.op, Op::DivideZ | Op::DivideW | Op::Project) {
                     step.op = Op::Mov;
                 }
             })
