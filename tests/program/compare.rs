@@ -4,27 +4,29 @@ use super::{Ran, folder, gpu_is_off, texcrd};
 use serde_json::Value;
 use std::fs;
 
-/// Two rectangles of one size at depths 2⁻¹⁰ and 2⁻¹⁰ + 2⁻¹⁷, red and blue; the second is moved nearer by as many steps as
-/// are given. A step is 1/65535 of the depth range on the CPU, so that two bring it to the front. On a GPU with a depth
-/// buffer of floats it is 256 times the last place of that depth, 2⁻²⁵, as is documented, and red stays in front.
-fn biased(test: &str, steps: u32) -> String {
+/// Two rectangles of one size, red at depth 0.75 and blue behind it, both with w = 4. If they are to part, the red one has a
+/// user clip plane whose numbers are beyond those that translations take for granted: 3.4e38·z and -3.4e38·w are infinities in
+/// 32-bit floats, whose sum is no number and not below 0, so that a GPU draws it. On the CPU their sum is negative, and blue
+/// is seen.
+fn parted(test: &str, part: bool) -> String {
     let draw = |color: &str, z: &str, more: &str| {
         format!(
             "[[draw]]\nname = \"{color}\"\nmesh = \"all\"\n\
-             vs_text = \"vs.1.1\\nadd oPos, v0, c0\\nmov oT0, v7\\n\"\n\
-             ps_text = \"ps.1.1\\ntexcoord t0\\nmov r0, {color}\\n\"\nvs_constants.c0 = [0, 0, {z}, 0]\n\
+             vs_text = \"vs.1.1\\nadd r0, v0, c0\\nmul oPos, r0, c1\\nmov oT0, v7\\n\"\n\
+             ps_text = \"ps.1.1\\ntexcoord t0\\nmov r0, {color}\\n\"\n\
+             vs_constants = {{ c0 = [0, 0, {z}, 0], c1 = 4 }}\n\
              ps_constants = {{ c0 = [1, 0, 0, 1], c1 = [0, 0, 1, 1] }}\n{more}\n"
         )
+    };
+    let plane = match part {
+        true => "state = { clip_planes = [[0, 0, 3.4e38, -3.4e38]] }",
+        false => "",
     };
     let text = format!(
         "size = [8, 8]\n[meshes.all]\n\
          positions = [[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]\nindices = [0, 1, 2, 0, 2, 3]\n{}{}",
-        draw("c0", "0.0009765625", ""),
-        draw(
-            "c1",
-            "0.00098419189453125",
-            &format!("state = {{ z_bias = {steps} }}")
-        ),
+        draw("c0", "0.75", plane),
+        draw("c1", "0.8", ""),
     );
     let path = folder(test).join("scene.toml");
     fs::write(&path, text).expect("the file can be written");
@@ -45,7 +47,7 @@ fn equal_pictures() {
     if gpu_is_off() {
         return;
     }
-    let scene = biased("compare_equal", 0);
+    let scene = parted("compare_equal", false);
     let ran = texcrd(&["compare", &scene, "--tolerance", "0"]);
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
     for part in [
@@ -85,7 +87,7 @@ fn different_pictures() {
     if gpu_is_off() {
         return;
     }
-    let scene = biased("compare_different", 2);
+    let scene = parted("compare_different", true);
     let picture = scene.replace("scene.toml", "differences.png");
     let (status, report) = json(&[
         "compare", &scene, "--pixel", "2,5", "-o", &picture, "--format", "json",
@@ -104,8 +106,8 @@ fn different_pictures() {
         ("/worst/cpu/2", 255.into()),
         ("/worst/gpu/0", 255.into()),
         ("/pixel/inside", true.into()),
-        ("/pixel/covered_by/0/draw", "c0".into()),
-        ("/pixel/covered_by/1/fate", "written".into()),
+        ("/pixel/covered_by/0/draw", "c1".into()),
+        ("/pixel/covered_by/0/fate", "written".into()),
         ("/pixel/compared/0/draw", "c1".into()),
         ("/pixel/compared/0/covered_on_gpu", true.into()),
         ("/pixel/compared/0/parting", Value::Null),
@@ -142,14 +144,14 @@ fn different_pictures() {
     assert_eq!(texcrd(&["compare", &scene, "--tolerance", "255"]).status, 0);
 }
 
-/// The target holds what [`biased`] draws and differs everywhere; the picture shows the target and does not, because both
+/// The target holds what [`parted`] draws and differs everywhere; the picture shows the target and does not, because both
 /// paths see that of the CPU. It is a difference all the same.
 #[test]
 fn render_targets_are_compared_by_themselves() {
     if gpu_is_off() {
         return;
     }
-    let scene = biased("compare_target", 2);
+    let scene = parted("compare_target", true);
     let text = fs::read_to_string(&scene).expect("it was written");
     let draws = "draws = [\"mirror\"]\n[meshes.all]";
     let mirror = "\
@@ -183,7 +185,7 @@ fn render_targets_are_compared_by_themselves() {
 
 #[test]
 fn what_compare_refuses() {
-    let scene = biased("compare_refused", 0);
+    let scene = parted("compare_refused", false);
     let picture = scene.replace("scene.toml", "differences.png");
     // Before any drawing, and so without an adapter too.
     for (arguments, status, message) in [
@@ -239,7 +241,7 @@ fn the_adapters() {
         }
         assert!(adapter["float_targets"].is_boolean() && adapter["float_filtering"].is_boolean());
     }
-    let scene = biased("adapters_number", 0);
+    let scene = parted("adapters_number", false);
     // One beyond the last; the message lists those that there are.
     let number = list.len().to_string();
     let ran = texcrd(&["compare", &scene, "--adapter", &number]);
@@ -258,7 +260,7 @@ fn registers_on_the_gpu() {
     if gpu_is_off() {
         return;
     }
-    let scene = biased("run_gpu_show", 0);
+    let scene = parted("run_gpu_show", false);
     let out = scene.replace("scene.toml", "out.png");
     let show = |more: &[&str]| {
         let mut arguments = vec!["run", &scene, "-o", &out, "--on", "gpu"];
