@@ -126,7 +126,6 @@ impl Needed {
 
 /// The slots of source `i` that one component of the result follows from.
 fn slots_read(op: Op, i: usize, component: usize) -> WriteMask {
-    let only = WriteMask::from_bits;
     match (op, i, component) {
         // 1, max(x, 0), a power of y if x is positive, 1
         (Op::Lit, _, 0 | 3) => WriteMask::NONE,
@@ -136,8 +135,6 @@ fn slots_read(op: Op, i: usize, component: usize) -> WriteMask {
         (Op::Dst, _, c) => WriteMask::component(c),
         // The last one is 1.
         (Op::ExpP | Op::LogP, _, 3) => WriteMask::NONE,
-        (Op::DivideZ, _, c) => WriteMask::component(c).and(WriteMask::XY).or(WriteMask::Z),
-        (Op::DivideW, _, c) => WriteMask::component(c).and(WriteMask::XY).or(only(0b1000)),
         (Op::Bump(_), 0, c) => WriteMask::component(c),
         (Op::Bump(_), _, 2 | 3) => WriteMask::NONE,
         _ => op.slots_read(i, WriteMask::component(component)),

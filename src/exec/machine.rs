@@ -409,13 +409,9 @@ fn xyzw<const N: usize>(register: &Lanes<N>, lane: usize) -> [f32; 4] {
     register.map(|component| component[lane])
 }
 
-/// Coordinates after a divide modifier. Only the first two components are defined.
+/// Coordinates after a divide.
 #[inline(always)]
-fn divided([x, y, ..]: [f32; 4], divisor: f32) -> [f32; 4] {
-    [
-        semantics::divide(x, divisor),
-        semantics::divide(y, divisor),
-        0.0,
-        0.0,
-    ]
+fn divided([x, y, z, _]: [f32; 4], divisor: f32) -> [f32; 4] {
+    let [x, y, z] = [x, y, z].map(|coordinate| semantics::divide(coordinate, divisor));
+    [x, y, z, 0.0]
 }

@@ -227,7 +227,8 @@ impl Context<'_> {
     fn divided(&self, a: Quad, divisor: Approx) -> Option<Quad> {
         let x = self.quotient(a[0], divisor)?;
         let y = self.quotient(a[1], divisor)?;
-        Some([x, y, Approx::ZERO, Approx::ZERO])
+        let z = self.quotient(a[2], divisor)?;
+        Some([x, y, z, Approx::ZERO])
     }
 
     fn partial_exponent(&self, x: Approx, mask: WriteMask) -> Option<Quad> {

@@ -211,9 +211,9 @@ pub enum Op {
     Lit,
     /// Distance vector
     Dst,
-    /// s0.xy / s0.z; a zero divisor gives 1
+    /// s0.xyz / s0.z; a zero divisor gives 1
     DivideZ,
-    /// s0.xy / s0.w; a zero divisor gives 1
+    /// s0.xyz / s0.w; a zero divisor gives 1
     DivideW,
     /// s0.xy plus s1.xy through the bump matrix of the stage; z and w of s0 are kept
     Bump(u8),
@@ -255,8 +255,8 @@ impl Op {
             Lit => WriteMask::from_bits(0b1011),
             Dst if i == 0 => WriteMask::from_bits(0b0110),
             Dst => WriteMask::from_bits(0b1010),
-            DivideZ => WriteMask::XYZ,
-            DivideW => WriteMask::from_bits(0b1011),
+            DivideZ => mask.and(WriteMask::XYZ).or(WriteMask::Z),
+            DivideW => mask.and(WriteMask::XYZ).or(WriteMask::from_bits(0b1000)),
             Bump(_) if i == 0 => WriteMask::ALL.and(mask).or(WriteMask::XY),
             Bump(_) | Depth => WriteMask::XY,
             Luminance(_) if i == 0 => mask,

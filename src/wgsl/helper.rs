@@ -24,7 +24,8 @@ pub(super) enum Helper {
     ExpP,
     LogP(OfZero),
     Lit(OfZero),
-    Divide,
+    /// Of this many components.
+    Divide(usize),
     Mirror,
     /// Relative addressing of this many constants.
     ConstantAt(u32),
@@ -81,7 +82,8 @@ impl Helper {
             Self::ExpP => "expp".into(),
             Self::LogP(_) => "logp".into(),
             Self::Lit(_) => "lit".into(),
-            Self::Divide => "divide".into(),
+            Self::Divide(2) => "divide".into(),
+            Self::Divide(width) => format!("divide{width}"),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
             Self::CubeFace => "cube_face".into(),
@@ -197,7 +199,7 @@ impl Helper {
             ),
             Self::PartialPrecision => PARTIAL_PRECISION.into(),
             Self::Lit(_) => LIT.into(),
-            Self::Divide => DIVIDE.into(),
+            Self::Divide(width) => divide(&self.name(), width),
             Self::Mirror => MIRROR.into(),
             Self::CubeFace => CUBE_FACE.into(),
             Self::AlongFace => ALONG_FACE.into(),
@@ -254,6 +256,18 @@ fn mul_zero(name: &str, width: usize) -> String {
     )
 }
 
+fn divide(name: &str, width: usize) -> String {
+    let (of, one) = match width {
+        1 => ("f32".to_string(), "1.0".to_string()),
+        _ => (format!("vec{width}f"), format!("vec{width}f(1.0)")),
+    };
+    format!(
+        "// Coordinates over their divisor; 1 where that is 0.\n\
+         fn {name}(x: {of}, y: f32) -> {of} {{\n    \
+             return select(x / y, {one}, y == 0.0);\n}}\n"
+    )
+}
+
 const INFINITY: &str = "\
 // Infinity, which no expression of constants may be.
 fn infinity() -> f32 {
@@ -277,13 +291,6 @@ fn lit(n_l: f32, n_h: f32, power: f32) -> vec4f {
     let specular = select(exp2(exponent * log2_abs(n_h)), 1.0, exponent == 0.0);
     let diffuse = select(0.0, n_l, n_l > 0.0);
     return vec4f(1.0, diffuse, select(0.0, specular, n_l > 0.0 && n_h > 0.0), 1.0);
-}
-";
-
-const DIVIDE: &str = "\
-// Coordinates over their divisor; 1 where that is 0.
-fn divide(x: vec2f, y: f32) -> vec2f {
-    return select(x / y, vec2f(1.0), y == 0.0);
 }
 ";
 

@@ -108,14 +108,9 @@ impl Body<'_> {
             }
             Op::DivideZ | Op::DivideW => {
                 let divisor = if step.op == Op::DivideZ { 2 } else { 3 };
-                let xy = self.operand(step, 0, WriteMask::XY);
-                let arguments = [xy.spread(2), one(self, 0, divisor)];
-                let xy = self.called(Helper::Divide, &arguments, 2);
-                planar(
-                    xy,
-                    mask,
-                    [Expression::number("0.0"), Expression::number("0.0")],
-                )
+                let coordinates = self.operand(step, 0, mask).spread(width);
+                let arguments = [coordinates, one(self, 0, divisor)];
+                self.called(Helper::Divide(width), &arguments, width)
             }
             Op::Bump(stage) => {
                 let at = self.operand(step, 0, WriteMask::XY);
