@@ -28,7 +28,7 @@ pub(super) enum Helper {
         of_zero: OfZero,
         ieee: bool,
     },
-    /// Coordinates in so many dimensions.
+    /// Of this many coordinates.
     Divide(usize),
     Mirror,
     /// Relative addressing of this many constants.
@@ -89,7 +89,7 @@ impl Helper {
             Self::LogP(_) => "logp".into(),
             Self::Lit { .. } => "lit".into(),
             Self::Divide(2) => "divide".into(),
-            Self::Divide(_) => "divide_xyz".into(),
+            Self::Divide(width) => format!("divide{width}"),
             Self::Mirror => "mirror".into(),
             Self::ConstantAt(_) => "constant_at".into(),
             Self::CubeFace => "cube_face".into(),
@@ -299,13 +299,14 @@ fn lit(ieee: bool) -> String {
 }
 
 fn divide(name: &str, width: usize) -> String {
+    let (of, one) = match width {
+        1 => ("f32".to_string(), "1.0".to_string()),
+        _ => (format!("vec{width}f"), format!("vec{width}f(1.0)")),
+    };
     format!(
-        "\
-// Coordinates over their divisor; 1 where that is 0.
-fn {name}(x: vec{width}f, y: f32) -> vec{width}f {{
-    return select(x / y, vec{width}f(1.0), y == 0.0);
-}}
-"
+        "// Coordinates over their divisor; 1 where that is 0.\n\
+         fn {name}(x: {of}, y: f32) -> {of} {{\n    \
+             return select(x / y, {one}, y == 0.0);\n}}\n"
     )
 }
 

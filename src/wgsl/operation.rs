@@ -119,10 +119,10 @@ impl Body<'_> {
                 )
             }
             Op::Project => {
-                let xyz = self.operand(step, 0, WriteMask::XYZ);
-                let arguments = [xyz.spread(3), one(self, 0, 3)];
-                let xyz = self.called(Helper::Divide(3), &arguments, 3);
-                components(&xyz, mask.and(WriteMask::XYZ))
+                // A 2D texture takes two of them, a cube or a volume three.
+                let coordinates = self.operand(step, 0, mask).spread(width);
+                let arguments = [coordinates, one(self, 0, 3)];
+                self.called(Helper::Divide(width), &arguments, width)
             }
             Op::Bump(stage) => {
                 let at = self.operand(step, 0, WriteMask::XY);

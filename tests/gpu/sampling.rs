@@ -499,9 +499,7 @@ fn same_on_both(device: &Device, kind: &str, stage: &str, model: Model) -> Vec<u
         false => (2, inside.pixels() / 1000),
     };
     assert!(
-        inside.max() <= most
-            && inside.above(1) <= above
-            && inside.count(1) * 12 <= inside.pixels(),
+        inside.max() <= most && inside.above(1) <= above && inside.count(1) * 12 <= inside.pixels(),
         "{about}: {:?}, worst {:?}",
         inside.counts().collect::<Vec<_>>(),
         inside.worst

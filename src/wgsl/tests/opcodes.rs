@@ -249,7 +249,7 @@ fn projected_stages() {
     );
     assert!(
         t.source
-            .contains("coordinates = divide_xyz(in.t1.xyz, in.t1.w);"),
+            .contains("coordinates = divide(in.t1.xy, in.t1.w);"),
         "{}",
         t.source
     );

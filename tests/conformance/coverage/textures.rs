@@ -168,6 +168,9 @@ fn notices_sampler(line: &Line<'_>, stage: usize, spoil: impl FnOnce(&mut Sample
         .notices(|case: &mut Case| spoil(&mut case.stages[stage].sampler))
 }
 
+/// The filters that differ where a pixel is alone: an anisotropic one magnifies as a linear one.
+const MAGNIFYING: [Filter; 2] = [Filter::Point, Filter::Linear];
+
 /// Every address mode on every axis under every filter, told apart from every other; on a cube all of them give the same.
 #[test]
 fn every_address_mode() {
@@ -182,8 +185,8 @@ fn every_address_mode() {
     for mode in AddressMode::ALL {
         for other in AddressMode::ALL.iter().filter(|other| *other != mode) {
             for axis in 0..3 {
-                for filter in Filter::ALL {
-                    wanted.push(item(*mode, axis, *filter, *other));
+                for filter in MAGNIFYING {
+                    wanted.push(item(*mode, axis, filter, *other));
                 }
             }
         }
