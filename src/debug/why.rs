@@ -138,7 +138,10 @@ fn slots_read(op: Op, i: usize, component: usize) -> WriteMask {
         (Op::ExpP | Op::LogP, _, 3) => WriteMask::NONE,
         (Op::DivideZ, _, c) => WriteMask::component(c).and(WriteMask::XY).or(WriteMask::Z),
         (Op::DivideW, _, c) => WriteMask::component(c).and(WriteMask::XY).or(only(0b1000)),
-        (Op::Project, _, c) => WriteMask::component(c).and(WriteMask::XYZ).or(only(0b1000)),
+        (Op::Project(by), _, c) => {
+            let by = WriteMask::component(by.into());
+            WriteMask::component(c).and(WriteMask::XYZ).or(by)
+        }
         (Op::Bump(_), 0, c) => WriteMask::component(c),
         (Op::Bump(_), _, 2 | 3) => WriteMask::NONE,
         _ => op.slots_read(i, WriteMask::component(component)),

@@ -304,9 +304,10 @@ impl<const N: usize> Machine<N> {
             Op::LogP => vector(|l| semantics::logp(policies.of_zero, a[0][l])),
             Op::DivideZ => vector(|l| divided(xyzw(a, l), a[2][l])),
             Op::DivideW => vector(|l| divided(xyzw(a, l), a[3][l])),
-            Op::Project => vector(|l| {
-                let [x, y, ..] = divided(xyzw(a, l), a[3][l]);
-                [x, y, semantics::divide(a[2][l], a[3][l]), 0.0]
+            Op::Project(by) => vector(|l| {
+                let by = a[usize::from(by) & 3][l];
+                let [x, y, ..] = divided(xyzw(a, l), by);
+                [x, y, semantics::divide(a[2][l], by), 0.0]
             }),
             Op::Bump(stage) => {
                 let state = &environment.stages[usize::from(stage) % STAGES].bump;

@@ -155,9 +155,10 @@ impl Context<'_> {
             Op::Dst => Some([Approx::ONE, a[1].times(b[1], r), a[2], b[3]]),
             Op::DivideZ => self.divided(a, a[2]),
             Op::DivideW => self.divided(a, a[3]),
-            Op::Project => {
-                let [x, y, ..] = self.divided(a, a[3])?;
-                Some([x, y, self.quotient(a[2], a[3])?, Approx::ZERO])
+            Op::Project(by) => {
+                let by = a[usize::from(by) & 3];
+                let [x, y, ..] = self.divided(a, by)?;
+                Some([x, y, self.quotient(a[2], by)?, Approx::ZERO])
             }
             Op::Bump(stage) => {
                 let [m00, m01, m10, m11] = self.sampling.bump(stage.into()).matrix.map(number);

@@ -215,9 +215,9 @@ pub enum Op {
     DivideZ,
     /// s0.xy / s0.w; a zero divisor gives 1
     DivideW,
-    /// s0.xyz / s0.w; a zero divisor gives 1. Unlike the divide modifiers of `ps.1.4`, `D3DTTFF_PROJECTED` leaves no
-    /// component undefined: cubes and volumes need the third.
-    Project,
+    /// s0.xyz / this component of s0, 2 or 3; a zero divisor gives 1. Unlike the divide modifiers of `ps.1.4`,
+    /// `D3DTTFF_PROJECTED` leaves no component undefined: cubes and volumes need the third.
+    Project(u8),
     /// s0.xy plus s1.xy through the bump matrix of the stage; z and w of s0 are kept
     Bump(u8),
     /// s0 times the luminance s1.z of the stage (`texbeml`)
@@ -241,7 +241,7 @@ impl Op {
             Add | Sub | Mul | Min | Max | Slt | Sge | Dp3 | Dp4 | Dst | Bump(_) | Luminance(_)
             | Reflect => 2,
             Mov | Frc | Floor | Rcp | Rsq | Exp | Log | ExpP | LogP | Lit | DivideZ | DivideW
-            | Project | Sample(_) | Kill | Depth => 1,
+            | Project(_) | Sample(_) | Kill | Depth => 1,
         }
     }
 
@@ -260,7 +260,9 @@ impl Op {
             Dst => WriteMask::from_bits(0b1010),
             DivideZ => WriteMask::XYZ,
             DivideW => WriteMask::from_bits(0b1011),
-            Project => WriteMask::XYZ.and(mask).or(WriteMask::from_bits(0b1000)),
+            Project(by) => WriteMask::XYZ
+                .and(mask)
+                .or(WriteMask::component(by as usize)),
             Bump(_) if i == 0 => WriteMask::ALL.and(mask).or(WriteMask::XY),
             Bump(_) | Depth => WriteMask::XY,
             Luminance(_) if i == 0 => mask,

@@ -169,8 +169,8 @@ fn projected(lowering: &mut Lowering<'_>, m: usize, coordinates: Slot) -> Operan
     let projection = lowering.options.projection.get(m).copied();
     let op = match projection.unwrap_or_default() {
         Projection::None => return Operand::slot(coordinates),
-        Projection::Third => Op::DivideZ,
-        Projection::Fourth => Op::Project,
+        Projection::Third => Op::Project(2),
+        Projection::Fourth => Op::Project(3),
     };
     let sources = vec![Operand::slot(coordinates)];
     lowering.push(op, Slot::COORDINATES, WriteMask::XYZ, sources);

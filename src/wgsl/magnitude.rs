@@ -288,7 +288,7 @@ impl Magnitudes {
             Op::Bump(_) => a + product(self.outside, of(1, 0) + of(1, 1)),
             Op::Luminance(_) => product(a, product(self.outside, of(1, 2)) + self.outside),
             Op::Sample(stage) => self.texels[usize::from(stage) & 7],
-            Op::DivideZ | Op::DivideW | Op::Project | Op::Reflect | Op::Kill => UNBOUNDED,
+            Op::DivideZ | Op::DivideW | Op::Project(_) | Op::Reflect | Op::Kill => UNBOUNDED,
         }
     }
 

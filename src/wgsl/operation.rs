@@ -118,10 +118,10 @@ impl Body<'_> {
                     [Expression::number("0.0"), Expression::number("0.0")],
                 )
             }
-            Op::Project => {
+            Op::Project(by) => {
                 // A 2D texture takes two of them, a cube or a volume three.
                 let coordinates = self.operand(step, 0, mask).spread(width);
-                let arguments = [coordinates, one(self, 0, 3)];
+                let arguments = [coordinates, one(self, 0, by.into())];
                 self.called(Helper::Divide(width), &arguments, width)
             }
             Op::Bump(stage) => {

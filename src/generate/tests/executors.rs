@@ -148,7 +148,10 @@ impl Exact<'_> {
             Op::Dst => [1.0, mul(a[1], b[1]), a[2], b[3]],
             Op::DivideZ => [over(a[0], a[2]), over(a[1], a[2]), 0.0, 0.0],
             Op::DivideW => [over(a[0], a[3]), over(a[1], a[3]), 0.0, 0.0],
-            Op::Project => [over(a[0], a[3]), over(a[1], a[3]), over(a[2], a[3]), 0.0],
+            Op::Project(by) => {
+                let by = a[usize::from(by)];
+                [over(a[0], by), over(a[1], by), over(a[2], by), 0.0]
+            }
             Op::Bump(stage) => {
                 let m = self.environment.stages[usize::from(stage)].bump.matrix;
                 let m = m.map(f64::from);

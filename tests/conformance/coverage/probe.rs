@@ -316,8 +316,8 @@ pub(super) const PROJECTED: [Opcode; 3] = [Opcode::Tex, Opcode::TexBem, Opcode::
 pub(super) fn projection(kernel: &Kernel, instruction: usize) -> Option<Projection> {
     let mut steps = kernel.steps.iter().filter(|s| s.origin == instruction);
     steps.find_map(|step| match step.op {
-        Op::DivideZ => Some(Projection::Third),
-        Op::DivideW | Op::Project => Some(Projection::Fourth),
+        Op::DivideZ | Op::Project(2) => Some(Projection::Third),
+        Op::DivideW | Op::Project(_) => Some(Projection::Fourth),
         _ => None,
     })
 }

@@ -331,7 +331,7 @@ fn every_projection() {
         list.tick(&item(&line.title(), by), || {
             // The division becomes a copy.
             line.notices_steps(|step| {
-                if matches!(step.op, Op::DivideZ | Op::DivideW | Op::Project) {
+                if matches!(step.op, Op::DivideZ | Op::DivideW | Op::Project(_)) {
                     step.op = Op::Mov;
                 }
             })
