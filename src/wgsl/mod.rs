@@ -52,9 +52,11 @@
 //! ([`StageOptions::weights`]).
 
 mod body;
+mod by_hand;
 mod constants;
 mod error;
 mod expression;
+mod faces;
 mod helper;
 mod layout;
 mod listing;
