@@ -1,7 +1,9 @@
 //! The functions that a translation may need, as they stand in it.
 
+use super::by_hand::{self, ByHand};
+use super::faces;
 use super::number::{LARGEST, SMALLEST_NORMAL};
-use super::texels::{self, ByHand, Filtered, Texels, Within};
+use super::texels::{self, Filtered, Texels, Within};
 use crate::policy::{Model, OfZero};
 use crate::texture::AddressMode;
 use std::collections::BTreeSet;
@@ -210,15 +212,15 @@ impl Helper {
             Self::Lit { ieee, .. } => lit(ieee),
             Self::Divide(width) => divide(&self.name(), width),
             Self::Mirror => MIRROR.into(),
-            Self::CubeFace => CUBE_FACE.into(),
-            Self::AlongFace => ALONG_FACE.into(),
-            Self::OnFace => ON_FACE.into(),
-            Self::FaceStep => texels::FACE_STEP.into(),
-            Self::OutOfFace => texels::OUT_OF_FACE.into(),
-            Self::AcrossEdge => texels::ACROSS_EDGE.into(),
-            Self::SampleFaces(detail) => sample_faces(&self.name(), detail),
+            Self::CubeFace => faces::CUBE_FACE.into(),
+            Self::AlongFace => faces::ALONG_FACE.into(),
+            Self::OnFace => faces::ON_FACE.into(),
+            Self::FaceStep => faces::FACE_STEP.into(),
+            Self::OutOfFace => faces::OUT_OF_FACE.into(),
+            Self::AcrossEdge => faces::ACROSS_EDGE.into(),
+            Self::SampleFaces(detail) => faces::sample_faces(&self.name(), detail),
             Self::Between => texels::BETWEEN.into(),
-            Self::LevelOfDetail => texels::LEVEL_OF_DETAIL.into(),
+            Self::LevelOfDetail => by_hand::LEVEL_OF_DETAIL.into(),
             Self::Index(mode) => texels::index_text(mode).1.into(),
             Self::Texel(texels) => texels.text(),
             Self::Within(filter, texels) => filter.text(texels),
@@ -318,44 +320,6 @@ fn mirror(n: vec3f, e: vec3f) -> vec3f {
 }
 ";
 
-const CUBE_FACE: &str = "\
-// The face of a cube that a direction meets: +X, -X, +Y, -Y, +Z, -Z; among equals z comes before y and y before x.
-fn cube_face(direction: vec3f) -> u32 {
-    let a = abs(direction);
-    if a.z >= a.y && a.z >= a.x {
-        return select(4u, 5u, direction.z < 0.0);
-    }
-    if a.y >= a.x {
-        return select(2u, 3u, direction.y < 0.0);
-    }
-    return select(0u, 1u, direction.x < 0.0);
-}
-";
-
-const ALONG_FACE: &str = "\
-// A direction along a face of a cube: to the right, down and outwards.
-fn along_face(face: u32, d: vec3f) -> vec3f {
-    switch face {
-        case 0u: { return vec3f(-d.z, -d.y, d.x); }
-        case 1u: { return vec3f(d.z, -d.y, -d.x); }
-        case 2u: { return vec3f(d.x, d.z, d.y); }
-        case 3u: { return vec3f(d.x, -d.z, -d.y); }
-        case 4u: { return vec3f(d.x, -d.y, d.z); }
-        default: { return vec3f(-d.x, -d.y, -d.z); }
-    }
-}
-";
-
-const ON_FACE: &str = "\
-// Where a direction meets the plane of a face, 0 to 1 to the right and down; far away where it points past the plane.
-fn on_face(face: u32, direction: vec3f) -> vec2f {
-    let at = along_face(face, direction);
-    let a = abs(direction);
-    let distance = max(at.z, max(a.x, max(a.y, a.z)) / 1048576.0);
-    return select((at.xy / distance + 1.0) / 2.0, vec2f(0.5), distance == 0.0);
-}
-";
-
 const FOG_FACTOR: &str = "\
 // How clear it is, 0 to 1; NaN is clear.
 fn fog_factor(f: f32) -> f32 {
@@ -380,35 +344,6 @@ fn linear_fog(distance: f32, start: f32, end: f32) -> f32 {
     return select((end - distance) / (end - start), f32(distance < end), start == end);
 }
 ";
-
-fn sample_faces(name: &str, detail: Detail) -> String {
-    let (parameter, about) = match detail {
-        Detail::Plain => ("", ""),
-        Detail::Bias => (", bias: f32", " with a bias of the level of detail"),
-        Detail::LevelZero => ("", ", level 0"),
-    };
-    let (steps, call, last) = match detail {
-        Detail::LevelZero => (String::new(), "textureSampleLevel", "0.0"),
-        Detail::Plain => (face_steps(), "textureSampleGrad", "x, y"),
-        Detail::Bias => (
-            face_steps(),
-            "textureSampleGrad",
-            "exp2(bias) * x, exp2(bias) * y",
-        ),
-    };
-    format!(
-        "// A cube as Direct3D 8 filters it, each face for itself{about}.\n\
-         fn {name}(faces: texture_2d_array<f32>, clamped: sampler, direction: vec3f{parameter}) -> vec4f {{\n    \
-             let face = cube_face(direction);\n    \
-             let at = on_face(face, direction);\n\
-             {steps}    \
-             return {call}(faces, clamped, at, face, {last});\n}}\n"
-    )
-}
-
-fn face_steps() -> String {
-    ['x', 'y'].map(texels::face_step).concat()
-}
 
 fn held(name: &str, model: Model, width: usize) -> String {
     let (of, steps) = (model.most(), model.steps().unwrap_or(1.0));

@@ -53,9 +53,11 @@
 //! ([`StageOptions::weights`]).
 
 mod body;
+mod by_hand;
 mod constants;
 mod error;
 mod expression;
+mod faces;
 mod helper;
 mod layout;
 mod listing;

@@ -1,10 +1,10 @@
 //! What each step of a kernel becomes: one arm an operation, with the meaning of [`crate::semantics`].
 
 use super::body::{Body, slots_read};
+use super::by_hand::{Argument, ByHand};
 use super::expression::{Binding, Expression, Value};
 use super::helper::{Detail, Helper};
 use super::layout::Field;
-use super::texels::{Argument, ByHand};
 use crate::isa::WriteMask;
 use crate::isa::operand::XYZW;
 use crate::kernel::{Op, Step};

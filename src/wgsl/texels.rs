@@ -1,25 +1,22 @@
-//! Samples that the shader puts together itself, texel by texel: what a sampler of WebGPU cannot do, or not exactly.
-//!
-//! The functions do what [`crate::texture::sample_quads`] does, step by step: a texel by its numbers, a filter within a
-//! level, the levels, and λ with the probes of an anisotropic filter.
+//! Functions that read texels: one by its numbers, a filter within a level, a filter between levels. They do what
+//! [`crate::texture::sample_quads`] does, step by step.
 
 use super::helper::Helper;
-use super::options::StageOptions;
-use crate::texture::{AddressMode, Filter, MipFilter, RATIO_SLACK, Sampler, TextureKind, Weights};
+use crate::texture::{AddressMode, MipFilter};
 
 /// How texels are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Texels {
-    shape: Shape,
-    /// Of a cube always wrap, which it has not.
-    address: [AddressMode; 3],
+    pub(super) shape: Shape,
+    /// Of axes that the texture does not have always wrap.
+    pub(super) address: [AddressMode; 3],
     /// Whether texels are bytes, filtered as numbers from 0 to 255.
-    bytes: bool,
+    pub(super) bytes: bool,
 }
 
 /// What a texture is bound as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Shape {
+pub(super) enum Shape {
     Flat,
     Volume,
     /// A cube whose faces end at their edges.
@@ -40,113 +37,20 @@ pub(super) enum Within {
 /// A filter within and between levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Filtered {
-    texels: Texels,
-    within: Within,
-    mip: MipFilter,
+    pub(super) texels: Texels,
+    pub(super) within: Within,
+    pub(super) mip: MipFilter,
     /// Whether levels are blended with weights of 8 bits.
-    coarse: bool,
-}
-
-/// A whole sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct ByHand {
-    mag: Filtered,
-    min: Filtered,
-    /// The most probes.
-    most: u32,
-    bias: bool,
-    level_zero: bool,
-}
-
-impl StageOptions {
-    /// Whether the shader puts samples together itself.
-    pub(super) fn is_by_hand(&self) -> bool {
-        let axes = match self.texture {
-            None => return false,
-            Some(TextureKind::Cube) => 0,
-            Some(TextureKind::Texture2D) => 2,
-            Some(TextureKind::Volume) => 3,
-        };
-        let unknown = |mode| matches!(mode, AddressMode::Border | AddressMode::MirrorOnce);
-        let blends = self.mag.is_linear() || self.min.is_linear() || self.mip == MipFilter::Linear;
-        // A sampler of WebGPU looks at λ behind the limits of the levels, and leaves open where halves go to.
-        let other_limits = self.max_mip_level > 0 && self.mag.is_linear() != self.min.is_linear();
-        let levels = match self.mip {
-            MipFilter::None => false,
-            MipFilter::Point => other_limits || self.lod_bias,
-            MipFilter::Linear => other_limits,
-        };
-        self.address.into_iter().take(axes).any(unknown)
-            || (self.weights == Weights::EightBits && blends)
-            || self.most_probes() > 1
-            || levels
-    }
-
-    fn most_probes(&self) -> u32 {
-        match self.min {
-            Filter::Anisotropic => self.max_anisotropy.clamp(1, *Sampler::ANISOTROPY.end()),
-            _ => 1,
-        }
-    }
-
-    /// The function that samples; none without a texture. Arguments: [`ByHand::takes`].
-    pub(super) fn by_hand(&self, level_zero: bool) -> Option<ByHand> {
-        let (shape, axes) = match self.texture? {
-            TextureKind::Texture2D => (Shape::Flat, 2),
-            TextureKind::Volume => (Shape::Volume, 3),
-            TextureKind::Cube if self.seamless => (Shape::Seamless, 0),
-            TextureKind::Cube => (Shape::Faces, 0),
-        };
-        let address = std::array::from_fn(|axis| match axis < axes {
-            true => self.address[axis],
-            false => AddressMode::Wrap,
-        });
-        let coarse = self.weights == Weights::EightBits;
-        let filtered = |filter: Filter| Filtered {
-            texels: Texels {
-                shape,
-                address,
-                bytes: self.byte_texels,
-            },
-            within: match (filter.is_linear(), coarse) {
-                (false, _) => Within::Point,
-                (true, false) => Within::Linear,
-                (true, true) => Within::Coarse,
-            },
-            mip: self.mip,
-            coarse: coarse && self.mip == MipFilter::Linear,
-        };
-        let mag = filtered(self.mag);
-        Some(match level_zero {
-            true => ByHand {
-                mag,
-                min: mag,
-                most: 1,
-                bias: false,
-                level_zero,
-            },
-            false => {
-                let mut made = ByHand {
-                    mag,
-                    min: filtered(self.min),
-                    most: self.most_probes(),
-                    bias: self.lod_bias,
-                    level_zero,
-                };
-                made.bias &= made.has_lambda();
-                made
-            }
-        })
-    }
+    pub(super) coarse: bool,
 }
 
 impl Texels {
-    fn is_cube(self) -> bool {
+    pub(super) fn is_cube(self) -> bool {
         matches!(self.shape, Shape::Faces | Shape::Seamless)
     }
 
     /// How many numbers a place has, beside the face.
-    fn width(self) -> usize {
+    pub(super) fn width(self) -> usize {
         match self.shape {
             Shape::Volume => 3,
             Shape::Flat | Shape::Faces | Shape::Seamless => 2,
@@ -158,12 +62,12 @@ impl Texels {
         "xyz".chars().zip(self.address).take(count)
     }
 
-    fn has_border(self) -> bool {
+    pub(super) fn has_border(self) -> bool {
         self.axes().any(|(_, mode)| mode == AddressMode::Border)
     }
 
     /// What tells the functions of these texels from others.
-    fn suffix(self) -> String {
+    pub(super) fn suffix(self) -> String {
         let mut text = match self.shape {
             Shape::Flat => String::new(),
             Shape::Volume => "_volume".into(),
@@ -182,7 +86,7 @@ impl Texels {
     }
 
     /// The texture as a parameter.
-    fn texture(self) -> &'static str {
+    pub(super) fn texture(self) -> &'static str {
         match self.shape {
             Shape::Flat => "t: texture_2d<f32>",
             Shape::Volume => "t: texture_3d<f32>",
@@ -191,12 +95,12 @@ impl Texels {
     }
 
     /// `, face` where there are faces.
-    fn face(self, text: &'static str) -> &'static str {
+    pub(super) fn face(self, text: &'static str) -> &'static str {
         if self.is_cube() { text } else { "" }
     }
 
     /// `, border` where there is one.
-    fn border(self, text: &'static str) -> &'static str {
+    pub(super) fn border(self, text: &'static str) -> &'static str {
         if self.has_border() { text } else { "" }
     }
 
@@ -331,7 +235,7 @@ pub(super) fn index_text(mode: AddressMode) -> (&'static str, &'static str) {
 }
 
 impl Within {
-    fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Self::Point => "point",
             Self::Linear => "linear",
@@ -485,7 +389,7 @@ impl Filtered {
     }
 
     /// What gives the value at a place, of a face where there are faces.
-    fn call(self, at: &str, face: &str, lambda: &str) -> String {
+    pub(super) fn call(self, at: &str, face: &str, lambda: &str) -> String {
         let face = match self.texels.is_cube() {
             true => format!(", {face}"),
             false => String::new(),
@@ -497,7 +401,7 @@ impl Filtered {
         }
     }
 
-    fn helper(self) -> Helper {
+    pub(super) fn helper(self) -> Helper {
         match self.mip {
             MipFilter::None => Helper::Within(self.within, self.texels),
             _ => Helper::Filtered(self),
@@ -505,252 +409,9 @@ impl Filtered {
     }
 }
 
-/// An argument of [`ByHand`], behind the texture and the coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Argument {
-    Bias,
-    /// The number of the largest level that is read.
-    Largest,
-    Border,
-}
-
-impl ByHand {
-    /// What it takes behind the texture and the coordinates, in this order.
-    pub(super) fn takes(self) -> impl Iterator<Item = Argument> {
-        [
-            (self.bias, Argument::Bias),
-            (self.mag.mip != MipFilter::None, Argument::Largest),
-            (self.mag.texels.has_border(), Argument::Border),
-        ]
-        .into_iter()
-        .filter_map(|(is_taken, argument)| is_taken.then_some(argument))
-    }
-
-    /// Whether anything depends on derivatives.
-    fn has_lambda(self) -> bool {
-        !self.level_zero
-            && (self.mag != self.min || self.most > 1 || self.mag.mip != MipFilter::None)
-    }
-
-    pub(super) fn name(self) -> String {
-        let mut filters = self.mag.within.word().to_string();
-        if self.mag != self.min {
-            filters += &format!("_{}", self.min.within.word());
-        }
-        if self.most > 1 {
-            filters += &format!("_{}_probes", self.most);
-        }
-        let mip = match self.mag.mip {
-            MipFilter::None => "",
-            MipFilter::Point => "_mip",
-            MipFilter::Linear => "_mips",
-        };
-        let weights = match self.mag.coarse && filters == "point" {
-            true => "_coarse",
-            false => "",
-        };
-        let bias = if self.bias { "_bias" } else { "" };
-        let zero = if self.level_zero { "_level_zero" } else { "" };
-        let suffix = self.mag.texels.suffix();
-        format!("sample_{filters}{weights}{mip}{bias}{zero}{suffix}")
-    }
-
-    pub(super) fn needs(self) -> Vec<Helper> {
-        let mut needs = match self.level_zero {
-            true => vec![Helper::Within(self.mag.within, self.mag.texels)],
-            false => vec![self.mag.helper(), self.min.helper()],
-        };
-        if self.has_lambda() {
-            needs.push(Helper::LevelOfDetail);
-            if self.mag.texels.is_cube() {
-                needs.push(Helper::FaceStep);
-            }
-        }
-        if self.mag.texels.is_cube() {
-            needs.extend([Helper::CubeFace, Helper::OnFace]);
-            if self.most > 1 {
-                needs.push(Helper::OutOfFace);
-            }
-        }
-        needs
-    }
-
-    pub(super) fn text(self) -> String {
-        let texels = self.mag.texels;
-        let w = texels.width();
-        let given = match texels.is_cube() {
-            true => "direction: vec3f".to_string(),
-            false => format!("at: vec{w}f"),
-        };
-        let parameters: String = (self.takes())
-            .map(|argument| match argument {
-                Argument::Bias => ", bias: f32",
-                Argument::Largest => ", largest: i32",
-                Argument::Border => ", border: vec4f",
-            })
-            .collect();
-        let mut text = format!(
-            "// {}\nfn {}({}, {given}{parameters}) -> vec4f {{\n",
-            self.about(),
-            self.name(),
-            texels.texture(),
-        );
-        if texels.is_cube() {
-            text +=
-                "    let face = cube_face(direction);\n    let at = on_face(face, direction);\n";
-        }
-        let scale = if texels.bytes { " / 255.0" } else { "" };
-        if self.has_lambda() {
-            text += &self.with_lambda(scale);
-        } else {
-            let border = texels.border(", border");
-            let value = match (self.level_zero, self.mag.mip) {
-                (true, MipFilter::Point | MipFilter::Linear) => format!(
-                    "{}(t, at{}, min(largest, i32(textureNumLevels(t)) - 1){border})",
-                    self.mag.within.name(texels),
-                    texels.face(", face"),
-                ),
-                _ => self.mag.call("at", "face", ""),
-            };
-            text += &format!("    return {value}{scale};\n");
-        }
-        text + "}\n"
-    }
-
-    fn about(self) -> String {
-        let words = |filter: Filtered| match filter.within {
-            Within::Point => "point",
-            Within::Linear => "linear",
-            Within::Coarse => "linear in steps of 1/256",
-        };
-        let within = match (self.mag.within == self.min.within, self.most) {
-            (true, 1) => words(self.mag).to_string(),
-            (_, 1) => format!(
-                "{} magnified, {} minified",
-                words(self.mag),
-                words(self.min)
-            ),
-            (_, most) => format!(
-                "{} magnified, minified {} with up to {most} probes",
-                words(self.mag),
-                words(self.min)
-            ),
-        };
-        let between = match self.mag.mip {
-            _ if self.level_zero => "",
-            MipFilter::None => ", level 0",
-            MipFilter::Point => ", the nearest level",
-            MipFilter::Linear if self.mag.coarse => ", between levels in steps of 1/256",
-            MipFilter::Linear => ", between levels",
-        };
-        format!("A sample, texel by texel: {within}{between}.")
-    }
-
-    fn with_lambda(self, scale: &str) -> String {
-        let texels = self.mag.texels;
-        let w = texels.width();
-        let step = |d: char| match texels.is_cube() {
-            true => face_step(d),
-            false => format!("    let {d} = dpd{d}Fine(at);\n"),
-        };
-        let bias = if self.bias { " + bias" } else { "" };
-        let mut text = format!(
-            "{}{}    \
-                 let size = vec{w}f(textureDimensions(t));\n    \
-                 let xx = dot(x * size, x * size);\n    \
-                 let yy = dot(y * size, y * size);\n    \
-                 let lambda = level_of_detail(max(xx, yy)){bias};\n",
-            step('x'),
-            step('y'),
-        );
-        let mag = self.mag.call("at", "face", "lambda");
-        if self.most == 1 {
-            if self.mag != self.min {
-                let min = self.min.call("at", "face", "lambda");
-                text += &format!("    if lambda > 0.0 {{\n        return {min}{scale};\n    }}\n");
-            }
-            return text + &format!("    return {mag}{scale};\n");
-        }
-        text += &format!(
-            "    if lambda <= 0.0 {{\n        return {mag}{scale};\n    }}\n    \
-                 // As many probes along the longer derivative as it is longer than the other one.\n    \
-                 let ratio = sqrt(max(xx, yy) / max(min(xx, yy), 1e-30));\n    \
-                 let probes = clamp(ceil(ratio - {RATIO_SLACK:?}), 1.0, {}.0);\n    \
-                 let along = select(y, x, xx >= yy);\n    \
-                 var sum = vec4f();\n    \
-                 for (var probe = 0.5; probe < probes; probe += 1.0) {{\n        \
-                     let place = at + along * (probe / probes - 0.5);\n",
-            self.most,
-        );
-        let (at, face) = match texels.is_cube() {
-            false => ("place", ""),
-            true => {
-                text += "        let there = out_of_face(face, vec3f(2.0 * place - 1.0, 1.0));\n        \
-                         let its_face = cube_face(there);\n";
-                ("on_face(its_face, there)", "its_face")
-            }
-        };
-        let min = self.min.call(at, face, "lambda - log2(probes)");
-        text += &format!("        sum += {min};\n    }}\n    return sum / probes{scale};\n");
-        text
-    }
-}
-
-/// The line with the step in a face of a cube to the neighbouring pixel along x or y of the screen, which is its name.
-pub(super) fn face_step(direction: char) -> String {
-    let d = format!("dpd{direction}Fine");
-    format!(
-        "    let {direction} = face_step(face, at, direction, {d}(direction), {d}(at), {d}(f32(face)));\n"
-    )
-}
-
-// Which of the two pixels asks is told by whose face the other one has.
-pub(super) const FACE_STEP: &str = "\
-// The step in a face from a pixel to its neighbour, from derivatives. One on another face is looked for in the plane of this one.
-fn face_step(face: u32, at: vec2f, direction: vec3f, d: vec3f, d_at: vec2f, d_face: f32) -> vec2f {
-    if d_face == 0.0 {
-        return d_at;
-    }
-    let is_ahead = f32(cube_face(direction + d)) - f32(face) == d_face;
-    return on_face(face, select(direction - d, direction + d, is_ahead)) - at;
-}
-";
-
 pub(super) const BETWEEN: &str = "\
 // From a to b.
 fn between(a: vec4f, b: vec4f, f: f32) -> vec4f {
     return a + f * (b - a);
-}
-";
-
-pub(super) const LEVEL_OF_DETAIL: &str = "\
-// log2 of a length, of which the square is given; far below all levels where that is 0.
-fn level_of_detail(square: f32) -> f32 {
-    return select(0.5 * log2(square), -1e30, square == 0.0);
-}
-";
-
-pub(super) const OUT_OF_FACE: &str = "\
-// The direction that leads so far to the right, down and out of a face of a cube.
-fn out_of_face(face: u32, p: vec3f) -> vec3f {
-    switch face {
-        case 0u: { return vec3f(p.z, -p.y, -p.x); }
-        case 1u: { return vec3f(-p.z, -p.y, p.x); }
-        case 2u: { return vec3f(p.x, p.z, p.y); }
-        case 3u: { return vec3f(p.x, -p.z, -p.y); }
-        case 4u: { return vec3f(p.x, -p.y, p.z); }
-        default: { return vec3f(-p.x, -p.y, -p.z); }
-    }
-}
-";
-
-pub(super) const ACROSS_EDGE: &str = "\
-// The texel behind one edge of a face of a cube, n texels wide, and its face: in whole numbers, of half texels.
-fn across_edge(face: u32, i: vec2i, n: i32) -> vec3i {
-    let direction = out_of_face(face, vec3f(vec2f(2 * i + 1 - n), f32(n)));
-    let to = cube_face(direction);
-    let at = vec3i(along_face(to, direction));
-    let place = (at.xy + at.z) * n / (2 * at.z);
-    return vec3i(clamp(place, vec2i(), vec2i(n - 1)), i32(to));
 }
 ";

@@ -106,6 +106,18 @@ fn states_are_baked_in() {
             "texture0: texture_cube<f32>",
         ),
         (&["--address", "0=border"], "border"),
+        (
+            &["--address", "0=border", "--filter", "0=point"],
+            "fn sample_point_border",
+        ),
+        (
+            &["--address", "0=mirror_once", "--mip", "0=linear"],
+            "fn sample_linear_mips_mirror_once",
+        ),
+        (
+            &["--filter", "0=anisotropic", "--max-anisotropy", "0=4"],
+            "1.0, 4.0)",
+        ),
         (&["--lod-bias", "0"], "lod_bias"),
         (&["--flat-shading"], "@interpolate(flat"),
         (&["--points", "sprites"], "@builtin(vertex_index)"),
@@ -126,6 +138,13 @@ fn states_are_baked_in() {
         (&vertex, &["--projected", "0"][..], "needs a pixel shader"),
         (&pixel, &["--clip-planes", "1"], "needs a vertex shader"),
         (&pixel, &["--address", "9=wrap"], "stages 0 to 7"),
+        (&pixel, &["--max-anisotropy", "0=17"], "1 to 16"),
+        (
+            &pixel,
+            &["--filter", "0=cubic"],
+            "point, linear, anisotropic",
+        ),
+        (&vertex, &["--mip", "0=point"], "needs a pixel shader"),
         (&pixel, &["--clip-planes", "7"], "7"),
     ] {
         let ran = texcrd(&[&["translate", file.as_str()], switches].concat());

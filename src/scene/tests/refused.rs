@@ -167,3 +167,27 @@ proptest::proptest! {
         }
     }
 }
+
+/// `max_anisotropy` is 1 until it is set: a filter that would need more is told of, one that has it is not.
+#[test]
+fn anisotropy_that_does_nothing_is_told() {
+    let with = |stage: &str| {
+        let scene = loaded(&format!(
+            "{MESH}[textures.t]\nsize = [1, 1]\ntexels = [[1]]\n[[draw]]\nmesh = \"m\"\nvs = \"flat.vsh\"\n\
+             ps = \"stage0.psh\"\nstages.0 = {{ texture = \"t\", {stage} }}\n"
+        ));
+        let told = scene.warnings().iter();
+        told.filter(|warning| warning.message.contains("`max_anisotropy` is 1"))
+            .count()
+    };
+    assert_eq!(with("filter = \"anisotropic\""), 1);
+    assert_eq!(with("min = \"anisotropic\", mag = \"point\""), 1);
+    for quiet in [
+        "filter = \"anisotropic\", max_anisotropy = 8",
+        "filter = \"anisotropic\", max_anisotropy = 1",
+        "mag = \"anisotropic\"",
+        "filter = \"gaussiancubic\"",
+    ] {
+        assert_eq!(with(quiet), 0, "{quiet}");
+    }
+}

@@ -6,7 +6,7 @@ use super::variables::{Container, Item};
 use texcrd::debug::{Event, Moment, Sample, Value, number_text};
 use texcrd::exec::Stage;
 use texcrd::kernel::Op;
-use texcrd::texture::{Texture, TextureKind};
+use texcrd::texture::{Filter, Texture, TextureKind};
 
 /// The stages that the shader samples.
 pub(super) fn stages(view: &View<'_>, hex: bool) -> Vec<Item> {
@@ -154,6 +154,10 @@ fn sampler(bound: &Stage<'_>) -> Vec<Item> {
             "bias of the level",
             number_text(sampler.lod_bias),
         ));
+    }
+    if sampler.min == Filter::Anisotropic {
+        let most = sampler.max_anisotropy.to_string();
+        items.push(Item::fact("most probes", most));
     }
     if sampler.max_mip_level != 0 {
         items.push(Item::fact(
