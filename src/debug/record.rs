@@ -389,6 +389,7 @@ impl Observer<4> for Recorder<'_> {
             event: Event::Step {
                 step: number,
                 reads,
+                computed: result,
                 sample,
                 killed: None,
             },
@@ -410,6 +411,7 @@ impl Observer<4> for Recorder<'_> {
             event: Event::Step {
                 step: number,
                 reads,
+                computed: Quad::default(),
                 sample: None,
                 killed: Some((before, *killed)),
             },
