@@ -94,6 +94,7 @@ fn sheet(scene: &Scene, tiles: &[Tile]) -> RgbaImage {
     let dressing = Dressing {
         captions: true,
         bars: true,
+        columns: None,
     };
     let drawn = scene.rendering(&options, &|_| ()).expect("it is drawn");
     drawn.sheet(tiles, dressing).expect("it is not too large")

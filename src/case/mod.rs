@@ -8,8 +8,8 @@
 //! number was born is told by the trace of the CPU.
 //!
 //! Files, in the order of the data: `json` (JSON as the tree that TOML is read into), `read`, `registers` and `texture`
-//! (the tree to a [`Case`]), `quantity` (what can be expected), `run` (the CPU), `gpu` and `slack` (the GPU, and how far it
-//! may be off), `judge`.
+//! (the tree to a [`Case`]), `quantity` (what can be expected), `run` (the CPU), `record` (the same, step by step), `gpu`
+//! and `slack` (the GPU, and how far it may be off), `judge`.
 
 #[cfg(feature = "gpu")]
 mod gpu;
@@ -17,6 +17,7 @@ mod json;
 mod judge;
 mod quantity;
 mod read;
+mod record;
 mod registers;
 mod run;
 #[cfg(feature = "gpu")]
@@ -39,6 +40,7 @@ pub use gpu::OnGpu;
 pub use judge::{Verdict, Wrong, judge};
 pub use quantity::Quantity;
 pub use read::{DEFAULT_TOLERANCE, MAX_INVOCATIONS};
+pub use record::{Told, record};
 pub use run::{Observed, Origin, Run, Value, observe};
 
 /// A shader unit test, ready to run.

@@ -6,7 +6,8 @@ use crate::isa::{RegisterFile, ShaderKind};
 use crate::kernel::{Kernel, Slot};
 use crate::program::Register;
 use crate::raster::{
-    self, ColorMask, Fate, LonePixel, RenderState, Vertex, fog_unit, merge_lone, vertex_outputs,
+    self, ColorMask, Fate, LonePixel, MergeRecord, RenderState, Vertex, fog_unit, merge_lone,
+    vertex_outputs,
 };
 use crate::scene::Shader;
 use crate::semantics::saturate;
@@ -87,33 +88,19 @@ struct Recorded<'a> {
 /// point has no neighbours, so that textures are magnified.
 pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
     let vertex = case.vertex.as_ref().map(|shader| {
-        let environment = Environment {
-            constants: bind_constants(&shader.kernel, &invocation.vertex_constants),
-            ..Environment::default()
-        };
-        let inputs = invocation.vertex_inputs.iter().enumerate();
-        let inputs = inputs.filter_map(|(i, value)| Some((Slot::input(i)?, *value)));
-        record(shader, &environment, inputs)
+        record(
+            shader,
+            &vertex_environment(shader, invocation),
+            vertex_inputs(invocation),
+        )
     });
     let outputs = match &vertex {
         Some(run) => vertex_outputs(&run.shader.kernel, |slot| run.machine.lane(slot, 0)),
         None => without_vertex_shader(invocation),
     };
     let pixel = case.pixel.as_ref().map(|shader| {
-        let environment = Environment {
-            constants: bind_constants(&shader.kernel, &invocation.pixel_constants),
-            stages: std::array::from_fn(|i| Stage {
-                texture: case.stages[i].texture.as_ref(),
-                sampler: case.stages[i].sampler,
-                bump: case.stages[i].bump,
-            }),
-        };
-        let colors = [outputs.diffuse, outputs.specular].into_iter().enumerate();
-        let colors =
-            colors.filter_map(|(i, color)| Some((Slot::input(i)?, color.to_array().map(saturate))));
-        let sets = outputs.texcoords.iter().enumerate();
-        let sets = sets.filter_map(|(i, set)| Some((Slot::texcoord(i)?, set.to_array())));
-        record(shader, &environment, colors.chain(sets))
+        let inputs = pixel_inputs(&outputs).map(|(slot, _, value)| (slot, value));
+        record(shader, &pixel_environment(case, shader, invocation), inputs)
     });
     let mut run = Run {
         observed: Observed::default(),
@@ -124,6 +111,69 @@ pub fn observe<'a>(case: &'a Case, invocation: &Invocation) -> Run<'a> {
     };
     run.collect(invocation, &outputs);
     run
+}
+
+/// What a vertex shader runs with, beside its inputs.
+pub(super) fn vertex_environment(shader: &Shader, invocation: &Invocation) -> Environment<'static> {
+    Environment {
+        constants: bind_constants(&shader.kernel, &invocation.vertex_constants),
+        ..Environment::default()
+    }
+}
+
+/// What a pixel shader runs with, beside its inputs.
+pub(super) fn pixel_environment<'a>(
+    case: &'a Case,
+    shader: &Shader,
+    invocation: &Invocation,
+) -> Environment<'a> {
+    Environment {
+        constants: bind_constants(&shader.kernel, &invocation.pixel_constants),
+        stages: std::array::from_fn(|i| Stage {
+            texture: case.stages[i].texture.as_ref(),
+            sampler: case.stages[i].sampler,
+            bump: case.stages[i].bump,
+        }),
+    }
+}
+
+/// The inputs of a vertex shader.
+pub(super) fn vertex_inputs(invocation: &Invocation) -> impl Iterator<Item = (Slot, [f32; 4])> {
+    let inputs = invocation.vertex_inputs.iter().enumerate();
+    inputs.filter_map(|(i, value)| Some((Slot::input(i)?, *value)))
+}
+
+/// The inputs of a pixel shader: as they come, and as the shader reads them.
+pub(super) fn pixel_inputs(outputs: &Vertex) -> impl Iterator<Item = (Slot, [f32; 4], [f32; 4])> {
+    let colors = [outputs.diffuse, outputs.specular].into_iter().enumerate();
+    let colors = colors.filter_map(|(i, color)| {
+        let color = color.to_array();
+        Some((Slot::input(i)?, color, color.map(saturate)))
+    });
+    let sets = outputs.texcoords.iter().enumerate();
+    let sets = sets.filter_map(|(i, set)| {
+        let set = set.to_array();
+        Some((Slot::texcoord(i)?, set, set))
+    });
+    colors.chain(sets)
+}
+
+/// The pixel as the output merger takes it.
+pub(super) fn lone(
+    state: &RenderState,
+    outputs: &Vertex,
+    color: [f32; 4],
+    replaced_z: Option<f32>,
+    killed: bool,
+) -> LonePixel {
+    LonePixel {
+        color,
+        killed,
+        z: state.depth_at(outputs.position.z / outputs.position.w),
+        replaced_z,
+        w: outputs.position.w,
+        fog: fog_unit(outputs.fog),
+    }
 }
 
 /// What stands for a vertex where no vertex shader runs: a point on the near plane whose fog is the alpha of its
@@ -200,7 +250,6 @@ impl Run<'_> {
     /// Takes out what the invocation speaks of.
     fn collect(&mut self, invocation: &Invocation, outputs: &Vertex) {
         let state = &self.case.state;
-        let z = state.depth_at(outputs.position.z / outputs.position.w);
         let replaced_z = self.pixel.as_ref().and_then(|run| {
             let writes = run.shader.kernel.writes_depth();
             writes.then(|| run.machine.lane(Slot::DEPTH, 0)[0])
@@ -208,20 +257,20 @@ impl Run<'_> {
         let pixel = self.pixel.as_ref();
         let killed = pixel.is_some_and(|run| run.trace.killed_by.is_some());
         let color = pixel.map(|run| run.machine.lane(Slot::R0, 0));
-        let lone = LonePixel {
-            color: color.unwrap_or_default(),
-            killed,
-            z,
+        let lone = lone(
+            state,
+            outputs,
+            color.unwrap_or_default(),
             replaced_z,
-            w: outputs.position.w,
-            fog: fog_unit(outputs.fog),
-        };
-        let target = &self.case.target;
+            killed,
+        );
+        let (z, target) = (lone.z, &self.case.target);
         // A target of one pixel is never too large.
         let merged = merge_lone(state, &lone, target).unwrap_or(raster::Merged {
             exact: target.color,
             stored: [0; 4],
             fate: Fate::Killed,
+            record: MergeRecord::default(),
         });
         self.merging = merging(state, merged.fate);
         let value = |quantity: Quantity| Value {

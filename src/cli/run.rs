@@ -149,6 +149,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     let mut dressing = Dressing {
         captions: several,
         bars: false,
+        // Models are to be compared.
+        columns: several.then_some(models.len() as u32),
     };
     for (number, model) in models.iter().enumerate() {
         let options = arguments.computing.loading(*model, arguments.dialect);
@@ -177,6 +179,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
             sheet.name(*model);
         }
     }
+    sheet.side_by_side(models.len());
     let dressed = dressing.captions || dressing.bars;
     let picture = match (dressed, sheet.pictures.first()) {
         (false, Some(picture)) => picture.clone(),
@@ -242,6 +245,24 @@ impl Sheet {
         });
         self.marks.resize(self.pictures.len(), MarkSet::default());
         Ok(())
+    }
+
+    /// Puts the pictures of one register under several models next to each other; they were drawn model by model.
+    fn side_by_side(&mut self, models: usize) {
+        let each = self.pictures.len() / models.max(1);
+        if models < 2 || each < 2 {
+            return;
+        }
+        let order = (0..each).flat_map(|tile| (0..models).map(move |model| model * each + tile));
+        let order: Vec<usize> = order.collect();
+        let pick = |number: &usize| self.pictures.get(*number).cloned();
+        self.pictures = order.iter().filter_map(pick).collect();
+        self.tiles = (order.iter())
+            .filter_map(|number| self.tiles.get(*number).cloned())
+            .collect();
+        self.marks = (order.iter())
+            .filter_map(|number| self.marks.get(*number).copied())
+            .collect();
     }
 
     /// Names the tiles that came last after the model that they were drawn with.

@@ -31,7 +31,9 @@ mod tests;
 mod text;
 mod why;
 
-pub use commands::{CommandHelp, Console, Display, Effect, Reply, command_help};
+pub use commands::{
+    Account, CommandHelp, Console, Display, Effect, Reply, account, command_help, occasion,
+};
 pub use expression::{
     Expression, ExpressionError, Format, LogMessage, Scope, Value, function_names, number_text,
 };
@@ -39,6 +41,8 @@ pub use given::{Given, GivenError};
 pub use moment::{
     Change, Event, Flags, InputSource, MergeStage, Moment, Quad, Read, Sample, Target,
 };
+#[cfg(feature = "scene")]
+pub(crate) use pixel::tell_merge;
 #[cfg(feature = "scene")]
 pub use pixel::{PixelError, PixelSubject, VertexSubject, Which};
 pub use record::{Edit, Input, Invocation, record};

@@ -37,6 +37,9 @@ pub enum Event {
         step: usize,
         /// What its operands read, in their order.
         reads: Vec<Read>,
+        /// The result before shift, saturation and the numbers of a hardware model; meaningful in the components that are
+        /// written, and not of a `texkill`.
+        computed: Quad,
         /// What was sampled.
         sample: Option<Sample>,
         /// Which pixels `texkill` has discarded before and after this step; only of a `texkill`.
@@ -97,6 +100,8 @@ pub enum InputSource {
     },
     /// The place within a point sprite.
     Sprite,
+    /// A vertex shader left it, and nothing was interpolated.
+    Output,
 }
 
 /// What is written.

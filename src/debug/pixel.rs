@@ -568,7 +568,7 @@ fn merged(
 }
 
 /// Appends the stages of the merger to the run of a pixel.
-fn tell_merge(run: &mut Run<'_>, merge: &MergeRecord) {
+pub(crate) fn tell_merge(run: &mut Run<'_>, merge: &MergeRecord) {
     let event = |stage: MergeStage| Event::Merge(Box::new(stage));
     let plain = |stage: MergeStage| Moment {
         instruction: None,

@@ -390,6 +390,7 @@ impl Observer<4> for Recorder<'_> {
             event: Event::Step {
                 step: number,
                 reads,
+                computed: result,
                 sample,
                 killed: None,
             },
@@ -411,6 +412,7 @@ impl Observer<4> for Recorder<'_> {
             event: Event::Step {
                 step: number,
                 reads,
+                computed: Quad::default(),
                 sample: None,
                 killed: Some((before, *killed)),
             },

@@ -111,7 +111,7 @@ pub struct LonePixel {
 }
 
 /// What stands in the target after a [`LonePixel`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Merged {
     /// The colour in 0 to 1 before it is rounded to the steps of a target.
     pub exact: [f32; 4],
@@ -119,6 +119,8 @@ pub struct Merged {
     pub stored: [u8; 4],
     /// Whether the pixel reached the target, or else what took it out.
     pub fate: Fate,
+    /// What was done with it, stage by stage.
+    pub record: MergeRecord,
 }
 
 /// Takes one pixel through fog, alpha test, depth and stencil test, blending and the colour write mask, into a target that
@@ -165,5 +167,6 @@ pub fn merge_lone(
         exact,
         stored: record.after.color,
         fate,
+        record,
     })
 }

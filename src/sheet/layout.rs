@@ -99,7 +99,8 @@ impl Layout {
             (width as f64 / height as f64 / RATIO).ln().abs()
         };
         let best = (1..=count).min_by(|a, b| off(*a).total_cmp(&off(*b)));
-        let layout = layout.with_columns(best.unwrap_or(1), count);
+        let wanted = dressing.columns.map(|columns| columns.clamp(1, count));
+        let layout = layout.with_columns(wanted.or(best).unwrap_or(1), count);
         let [width, height] = layout.sides();
         match width.saturating_mul(height) <= Self::MAX_PIXELS {
             true => Ok(layout),

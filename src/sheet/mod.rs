@@ -29,7 +29,7 @@
 //! let options = RenderOptions { size: None, show: Some(Show { draw: None, pictures }) };
 //! let drawn = scene.rendering(&options, &|_| {})?;
 //! assert_eq!(drawn.picture().plane(1).dimensions(), (64, 48));
-//! let sheet = drawn.sheet(&tiles, Dressing { captions: true, bars: true })?;
+//! let sheet = drawn.sheet(&tiles, Dressing { captions: true, bars: true, columns: None })?;
 //! assert!(sheet.width() > 3 * 64);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -63,6 +63,8 @@ pub struct Dressing {
     pub captions: bool,
     /// Scale bars and legends below the pictures.
     pub bars: bool,
+    /// How many pictures stand side by side; without it as many as bring the shape of the sheet nearest to that of a screen.
+    pub columns: Option<u32>,
 }
 
 /// The colour of the sheet where there is nothing.

@@ -8,10 +8,12 @@ const SIZE: [u32; 2] = [100, 50];
 const ALL: Dressing = Dressing {
     captions: true,
     bars: true,
+    columns: None,
 };
 const BARE: Dressing = Dressing {
     captions: false,
     bars: false,
+    columns: None,
 };
 
 fn tile(caption: &str, look: Look) -> Tile {
@@ -213,4 +215,19 @@ fn legends_name_what_is_there() {
     assert_eq!(sheet.get_pixel(9, 12).0, [0, 255, 255, 255]);
     assert_eq!(*sheet.get_pixel(10, 12), PAPER);
     assert!((16..40).all(|y| (0..200).all(|x| *sheet.get_pixel(x, y) == PAPER)));
+}
+
+/// Three pictures of 64×32 in a row of three: as wide as three tiles, as high as one.
+#[test]
+fn columns_can_be_wanted() {
+    let wanted = |columns| Dressing {
+        columns: Some(columns),
+        ..BARE
+    };
+    let tiles = tiles(3);
+    let layout = |columns| Layout::new(&tiles, [64, 32], wanted(columns), &[]).unwrap();
+    assert_eq!((layout(3).columns(), layout(3).size()), (3, [192, 32]));
+    assert_eq!((layout(1).columns(), layout(1).size()), (1, [64, 96]));
+    // More than there are would be empty.
+    assert_eq!((layout(9).columns(), layout(0).columns()), (3, 1));
 }

@@ -114,6 +114,7 @@ fn registers_as_pictures() {
     let dressing = Dressing {
         captions: false,
         bars: false,
+        columns: None,
     };
     let looks = [
         (Look::default(), false),

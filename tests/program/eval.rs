@@ -1,6 +1,6 @@
 //! `eval`: arithmetic done by hand against what the program prints.
 
-use super::{Ran, texcrd_with_input};
+use super::{Ran, texcrd, texcrd_with_input};
 use serde_json::Value;
 
 /// Runs a listing and returns what it prints as JSON.
@@ -298,4 +298,94 @@ fn constants_that_nobody_sets() {
     }
     let ran = texcrd_with_input(&["eval", "-"], b"ps.1.1\nmov r0, c0\n");
     assert!(!ran.err.contains("I7"), "{}", ran.err);
+}
+
+/// Everything that a result can be worked out from: what was read behind modifiers, and the sum before shift and saturation. Twice
+/// 0.5 · 0.75 + 0.25 is 1.25, and saturated 1; twice 0.5 · −0.5 + 0.25 is 0.
+#[test]
+fn the_trace_shows_what_went_in() {
+    let listing = "ps.1.1\nmov r1, c1\nmad_x2_sat r0, v0, r1_bx2, c0\n";
+    let set = ["v0=0.5", "c1=0.875,0.25,0.875,0.875", "c0=0.25"];
+    let result = eval(listing, &set);
+    assert_eq!(result["inputs"]["v0"][0], 0.5);
+    assert_eq!(result["constants"]["c1"][1], 0.25);
+    let step = &result["trace"][1]["steps"][0];
+    let reads: Vec<(&str, f64, f64)> = (step["reads"].as_array().expect("a list").iter())
+        .map(|read| {
+            let number = |i: usize| read["values"][i].as_f64().expect("a number");
+            (
+                read["operand"].as_str().expect("a name"),
+                number(0),
+                number(1),
+            )
+        })
+        .collect();
+    assert_eq!(
+        reads,
+        [("v0", 0.5, 0.5), ("r1_bx2", 0.75, -0.5), ("c0", 0.25, 0.25)]
+    );
+    assert_eq!(step["computed"][0], 0.625);
+    assert_eq!(step["notes"][0], "r0.rba was saturated to 0…1");
+    assert_eq!(step["values"], serde_json::json!([1.0, 0.0, 1.0, 1.0]));
+    // What is written as it was computed is told once.
+    assert_eq!(result["trace"][0]["steps"][0]["computed"], Value::Null);
+    let text = texcrd_with_input(
+        &[
+            "eval", "-", "--trace", "--set", "v0=0.5", "--set", "c1=0.875", "--set", "c0=0.25",
+        ],
+        listing.as_bytes(),
+    );
+    for line in [
+        "      v0           = 0.5, 0.5, 0.5, 0.5   given\n",
+        "        r1_bx2     = 0.75, 0.75, 0.75, 0.75\n",
+        "        computed   = 0.625, 0.625, 0.625, 0.625\n",
+        "      r0           = 1, 1, 1, 1\n",
+    ] {
+        assert!(text.out.contains(line), "{line}{}", text.out);
+    }
+}
+
+/// A case brings its textures and states. The texel (0, 0, 1) moves nothing; its luminance, 2 · 1 + 0.25, is clamped under this model.
+#[test]
+fn cases_are_traced() {
+    let case = "tests/conformance/models/gf3_texbeml.toml";
+    let ran = texcrd(&["eval", case, "--trace"]);
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""));
+    for line in [
+        "        bump matrix of stage 1 = 1, 0, 0, 1 (M00, M01, M10, M11)\n",
+        "      coordinates.rgb = 0, 0, 0\n",
+        "        factor of stage 1 = 1 × 2 + 0.25 = 2.25, taken into 0 to 1 (L × scale + offset)\n",
+        "        stage 1: 2d 1×1 rgba32f at (0, 0), the same all over the quad\n",
+        "        1 × texel 0,0: 0.4, 0.2, -0.6, 1\n",
+    ] {
+        assert!(ran.out.contains(line), "{line}{}", ran.out);
+    }
+    assert!(
+        ran.out.ends_with("t1    = 0.4, 0.2, -0.6, 1\n"),
+        "{}",
+        ran.out
+    );
+    // One invocation of several, both shaders, and what became of the pixel.
+    let case = "tests/conformance/states/fog_before_blend.toml";
+    let ran = texcrd(&["eval", case, "--trace", "--invocation", "1"]);
+    for line in [
+        "// vs.1.1\n",
+        "// ps.1.1\n",
+        "   of the vertex shader\n",
+        "   output merger: fog\n        factor 0.5 (of the vertices), colour 0, 0, 1\n",
+        "   output merger: blend\n",
+    ] {
+        assert!(ran.out.contains(line), "{line}{}", ran.out);
+    }
+    let ran = texcrd(&["eval", case, "--trace", "--format", "json"]);
+    let object: Value = serde_json::from_str(&ran.out).expect("one object");
+    assert_eq!(object["vertex"]["registers"]["oFog"][0], 0.5);
+    assert_eq!(
+        object["pixel"]["behind"][1]["occasion"],
+        "output merger: fog"
+    );
+    assert_eq!(texcrd(&["eval", case, "--invocation", "9"]).status, 2);
+    assert_eq!(texcrd(&["eval", case, "--set", "v0=1"]).status, 2);
+    let ran = texcrd(&["eval", "Cargo.toml"]);
+    assert_eq!(ran.status, 1);
 }

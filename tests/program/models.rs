@@ -112,6 +112,44 @@ fn one_model_for_one_listing() {
     assert!(ran.out.contains("0.2509804"), "{}{}", ran.out, ran.err);
 }
 
+/// What stands in a register is shown as it is; what is computed from it by hand is a float: 2 · 64/255.
+#[test]
+fn expressions_of_the_debugger_are_floats() {
+    let print = ["-x", "finish", "-x", "print r0.r * 2 + 0.001"];
+    let debug = ["debug", "-", "--set", "v0=0.5", "--model", "gf3"];
+    let ran = texcrd_with_input(&[&debug[..], &print].concat(), SQUARE.as_bytes());
+    assert!(ran.out.contains("0.5029608"), "{}{}", ran.out, ran.err);
+}
+
+/// A case that names its model and policies has them whatever the command line says. A name that there is not is its error.
+#[test]
+fn cases_name_their_model() {
+    let case = "model = \"gf3\"\npolicies.def = \"always\"\nps = \"ps.1.1\\ndef c0, 1, 1, 1, 1\\nmul r0, v0, c0\"\n\
+                ps_constants.c0 = 0\ninputs.v0 = 0.5\nexpect.r0 = 0.5019608\n";
+    for model in ["float", "gf3", "r200"] {
+        let ran = texcrd_with_input(&["test", "-", "--model", model], case.as_bytes());
+        assert_eq!(ran.status, 0, "{}", ran.out);
+    }
+    for (from, to, said) in [
+        ("gf3", "gf4", "there is no hardware model `gf4`"),
+        (
+            "\"always\"",
+            "\"never\"",
+            "there is no value of def `never`",
+        ),
+        ("policies.def", "policies.deff", "there is no policy `deff`"),
+    ] {
+        let ran = texcrd_with_input(&["test", "-"], case.replace(from, to).as_bytes());
+        assert_eq!(ran.status, 1, "{}", ran.out);
+        assert!(
+            ran.out.contains(said) || ran.err.contains(said),
+            "{}{}",
+            ran.out,
+            ran.err
+        );
+    }
+}
+
 #[test]
 fn cases_run_under_a_model() {
     let case = b"ps = \"ps.1.1\\nmul r0, v0, v0\"\ninputs.v0 = 0.5\nexpect.r0 = 0.2509804\n";
@@ -139,4 +177,10 @@ fn a_sheet_of_models() {
     let count = |all: u8| sheet.pixels().filter(|p| p.0 == [all; 4]).count();
     // 16 pixels of each of the three pictures, each model once; letters have other colours.
     assert_eq!((count(255), count(128)), (32, 16));
+    // Side by side: three in a row.
+    assert!(
+        sheet.width() > 2 * sheet.height(),
+        "{:?}",
+        sheet.dimensions()
+    );
 }

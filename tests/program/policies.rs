@@ -96,3 +96,24 @@ fn translations_follow() {
     assert!(!run("rcp-zero=largest").contains("infinity()"));
     assert!(run("scalar=x").contains("rcp(in.v0.x)"));
 }
+
+/// Whoever makes or compares generated shaders takes models and policies, and says which.
+#[test]
+fn generated_shaders_follow() {
+    let listing = |arguments: &[&str]| {
+        let ran = super::texcrd(
+            &[
+                &["generate", "--version", "vs.1.1", "--seed", "3"],
+                arguments,
+            ]
+            .concat(),
+        );
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        ran.out
+    };
+    assert!(listing(&[]).starts_with("vs.1.1\n"));
+    assert_eq!(listing(&[]), listing(&["--policy", "scalar=w"]));
+    assert!(listing(&["--policy", "scalar=x", "--model", "gf3"]).starts_with("vs.1.1\n"));
+    let ran = super::texcrd(&["fuzz-match", "--policy", "rcp"]);
+    assert_eq!(ran.status, 2);
+}

@@ -57,6 +57,7 @@ fn picture(session: &Session<'_>, draw: &str, tiles: &[Tile], path: &Path) -> Re
     let dressing = Dressing {
         captions: true,
         bars: true,
+        columns: None,
     };
     let image = match sheet {
         true => drawn

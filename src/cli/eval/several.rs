@@ -1,6 +1,7 @@
 //! One listing under several hardware models, side by side.
 
-use super::{Run, json_number, numbers};
+use super::told::{Run, Written};
+use super::{json_number, numbers};
 use serde_json::{Map, Value, json};
 use texcrd::isa::WriteMask;
 use texcrd::kernel::Slot;
@@ -16,24 +17,24 @@ struct Parting {
 /// The first number that is not the same in all runs. The kernels of all models have the same steps.
 fn parting(runs: &[Run<'_>]) -> Option<Parting> {
     let (first, others) = runs.split_first()?;
-    let changes = first.trace.changes.iter().enumerate();
-    let mut written = changes
-        .filter(|(_, change)| !change.slot.is_internal() || change.slot == Slot::DEPTH)
-        .flat_map(|(number, change)| change.mask.components().map(move |c| (number, change, c)));
-    let parted = written.find(|(number, change, c)| {
-        others.iter().any(|run| {
-            let other = run.trace.changes.get(*number);
-            other.is_none_or(|other| differ(other.after[*c], change.after[*c]))
+    let all: Vec<Vec<_>> = others.iter().map(|run| run.changes().collect()).collect();
+    let parted = first.changes().enumerate().find_map(|(number, change)| {
+        let parts = |c: &usize| {
+            all.iter().any(|changes| {
+                let other = changes.get(number);
+                other.is_none_or(|other| differ(other.after[*c], change.after[*c]))
+            })
+        };
+        let component = change.mask.components().find(parts)?;
+        Some(Parting {
+            instruction: change.instruction,
+            written: Some((change.slot, component)),
         })
-    });
-    let parted = parted.map(|(_, change, c)| Parting {
-        instruction: change.instruction,
-        written: Some((change.slot, c)),
     });
     let killed = others
         .iter()
-        .filter(|run| run.trace.killed_by != first.trace.killed_by)
-        .flat_map(|run| run.trace.killed_by.into_iter().chain(first.trace.killed_by))
+        .filter(|run| run.killed_at() != first.killed_at())
+        .flat_map(|run| run.killed_at().into_iter().chain(first.killed_at()))
         .min()
         .map(|instruction| Parting {
             instruction,
@@ -53,8 +54,7 @@ fn differ(a: f32, b: f32) -> bool {
 /// The number of a register that an instruction has written, behind it.
 fn number_at(run: &Run<'_>, parting: &Parting) -> Option<f32> {
     let (slot, component) = parting.written?;
-    let mut changes = run.trace.changes.iter();
-    let change = changes.find(|change| {
+    let change = run.changes().find(|change| {
         change.instruction == parting.instruction
             && change.slot == slot
             && change.mask.has(component)
@@ -67,17 +67,30 @@ pub(super) fn text(runs: &[Run<'_>], with_trace: bool) -> String {
     let Some((first, _)) = runs.split_first() else {
         return String::new();
     };
-    let width = runs.iter().map(|run| run.kernel.model.name().len()).max();
+    let width = runs.iter().map(|run| run.model().name().len()).max();
     let width = width.unwrap_or(0);
     let mut out = String::new();
     if with_trace {
         let all: Vec<Vec<_>> = runs.iter().map(|run| run.steps().collect()).collect();
-        for (number, step) in first.steps().enumerate() {
-            let text = step.instruction.text(first.listing.sources);
-            out.push_str(&format!("{:>4}  {text}\n", step.line));
+        let parting = parting(runs).map(|parting| parting.instruction);
+        for step in first.steps() {
+            let mark = if parting == Some(step.number) {
+                "->"
+            } else {
+                ""
+            };
+            first.push_heading(&mut out, &step, mark);
+            let number = step.number;
+            if parting == Some(number) {
+                // Why they part: what went in under each.
+                for run in runs {
+                    out.push_str(&format!("      {}\n", run.model()));
+                    run.push_inner(&mut out, &step, false);
+                }
+            }
             for (place, (slot, mask, _)) in step.registers.iter().enumerate() {
                 let name = format!("      {:<12} = ", first.name(*slot, *mask));
-                let of = |steps: &Vec<super::Written<'_>>| {
+                let of = |steps: &Vec<Written<'_>>| {
                     let written = steps.get(number)?.registers.get(place)?;
                     Some(written.2)
                 };
@@ -108,7 +121,7 @@ pub(super) fn text(runs: &[Run<'_>], with_trace: bool) -> String {
     }
     for run in runs {
         if let Some(text) = run.killed_by() {
-            out.push_str(&format!("{}: killed by {text}\n", run.kernel.model));
+            out.push_str(&format!("{}: killed by {text}\n", run.model()));
         }
     }
     out.push_str(&told(runs));
@@ -136,14 +149,14 @@ fn push(
             0 => name.to_string(),
             _ => " ".repeat(name.chars().count()),
         };
-        let (model, value) = (run.kernel.model.name(), numbers(*value, mask));
+        let (model, value) = (run.model().name(), numbers(*value, mask));
         out.push_str(&format!("{before}{model:<width$}  {value}\n"));
     }
 }
 
 /// Where the runs part first, in words.
 fn told(runs: &[Run<'_>]) -> String {
-    let names: Vec<&str> = runs.iter().map(|run| run.kernel.model.name()).collect();
+    let names: Vec<&str> = runs.iter().map(|run| run.model().name()).collect();
     let all = names.join(" and ");
     let Some(parting) = parting(runs) else {
         return format!("{all} do not part\n");
@@ -160,7 +173,7 @@ fn told(runs: &[Run<'_>]) -> String {
             let name = first.name(slot, WriteMask::component(component));
             let values: Vec<String> = runs
                 .iter()
-                .filter_map(|run| Some((run.kernel.model, number_at(run, &parting)?)))
+                .filter_map(|run| Some((run.model(), number_at(run, &parting)?)))
                 .map(|(model, number)| format!("{number} under {model}"))
                 .collect();
             format!("{name} is {}", values.join(", "))
@@ -172,7 +185,7 @@ fn told(runs: &[Run<'_>]) -> String {
 /// Line and text of the instruction at which runs part.
 fn place(run: &Run<'_>, parting: &Parting) -> Option<(usize, String)> {
     let step = run.steps().nth(parting.instruction)?;
-    Some((step.line, step.instruction.text(run.listing.sources)))
+    Some((step.line, run.instruction(step.instruction)))
 }
 
 /// All runs as JSON: `models` has the object of each, with its name; `parting` says where they part first, or is null.
@@ -181,7 +194,7 @@ pub(super) fn json(runs: &[Run<'_>], with_trace: bool) -> Value {
         .iter()
         .map(|run| {
             let mut object = run.json(with_trace);
-            object["model"] = json!(run.kernel.model.name());
+            object["model"] = json!(run.model().name());
             object
         })
         .collect();
@@ -195,10 +208,10 @@ fn parting_json(runs: &[Run<'_>]) -> Option<Value> {
         .iter()
         .filter_map(|run| {
             let number = number_at(run, &parting)?;
-            Some((run.kernel.model.name().to_string(), json_number(number)))
+            Some((run.model().name().to_string(), json_number(number)))
         })
         .collect();
-    let letters = first.listing.program.letters();
+    let letters = first.letters();
     let register = parting.written.map(|(slot, _)| slot.name(first.kind()));
     let component = (parting.written)
         .filter(|(slot, _)| *slot != Slot::DEPTH)

@@ -6,9 +6,10 @@
 //!
 //! Files: `table` (the commands, a row each: dispatch, help and completion all read it), `place` (lines and conditions),
 //! `travel` (moving), `stopping` (breakpoints and watchpoints), `look` (print, display, list), `info`, `explain` (why, quad),
-//! `change` (set, diff), `export`, `scene` (pixel, vertex, history), `complete`; and for words `tell` (moments), `sample` (what was
+//! `change` (set, diff), `account` (steps number by number), `export`, `scene` (pixel, vertex, history), `complete`; and for words `tell` (moments), `sample` (what was
 //! sampled), `merge` (the output merger).
 
+mod account;
 mod change;
 mod complete;
 mod explain;
@@ -27,6 +28,7 @@ mod tests;
 
 mod travel;
 
+pub use account::{Account, account, occasion};
 pub use table::{CommandHelp, command_help};
 
 use super::expression::{Expression, ExpressionError, Format};

@@ -225,6 +225,7 @@ pub(super) fn source_text(source: InputSource, lane: usize, mask: WriteMask) -> 
     match source {
         InputSource::Given => "   given".to_string(),
         InputSource::Fetched => "   of the vertex".to_string(),
+        InputSource::Output => "   of the vertex shader".to_string(),
         InputSource::Interpolated { corners, shares } => {
             let [b, c] = shares[lane & 3];
             let corners = corners.map(|corner| numbers(corner, mask));
@@ -335,7 +336,7 @@ fn read_remark(run: &Run<'_>, read: &Read) -> Option<String> {
 }
 
 /// The register of an operand.
-fn place_name(read: &Read, run: &Run<'_>) -> String {
+pub(super) fn place_name(read: &Read, run: &Run<'_>) -> String {
     match read.operand.place {
         Place::Slot(slot) => slot.name(run.listing.kind()),
         Place::Constant(index) => format!("c{index}"),
@@ -346,12 +347,33 @@ fn place_name(read: &Read, run: &Run<'_>) -> String {
 
 /// An operand and its value, in the slots that matter: `c0.r = 0.9`. Nothing for a number that the program did not write.
 pub(super) fn read_text(run: &Run<'_>, read: &Read, slots: WriteMask) -> Option<String> {
-    let slots = slots.and(read.slots);
-    if slots.is_empty() || matches!(read.operand.place, Place::Literal(_)) {
+    if matches!(read.operand.place, Place::Literal(_)) {
         return None;
     }
+    let (components, shown) = read_components(run, read, slots)?;
     let row = read.operand.modifier.row();
     let values = read.values[run.lane & 3];
+    Some(format!(
+        "{}{}{}{components}{} = {}",
+        row.prefix,
+        place_name(read, run),
+        row.suffix,
+        relative_text(run, read),
+        numbers(values, shown)
+    ))
+}
+
+/// The letters behind an operand, and the slots whose numbers are shown: one of those that all read the same component. Nothing
+/// if the step uses none.
+pub(super) fn read_components(
+    run: &Run<'_>,
+    read: &Read,
+    slots: WriteMask,
+) -> Option<(String, WriteMask)> {
+    let slots = slots.and(read.slots);
+    if slots.is_empty() {
+        return None;
+    }
     let all_one = |slots: WriteMask| {
         let mut components = slots
             .components()
@@ -376,17 +398,15 @@ pub(super) fn read_text(run: &Run<'_>, read: &Read, slots: WriteMask) -> Option<
             .map(|slot| letters[read.operand.swizzle.slot(slot)]);
         std::iter::once('.').chain(named).collect()
     };
-    let relative = match (read.operand.place, read.relative[run.lane & 3]) {
+    Some((components, shown))
+}
+
+/// Which constant a relative operand names, ` (c12)`; nothing for others.
+pub(super) fn relative_text(run: &Run<'_>, read: &Read) -> String {
+    match (read.operand.place, read.relative[run.lane & 3]) {
         (Place::Relative(_), Some(index)) => format!(" (c{index})"),
         _ => String::new(),
-    };
-    Some(format!(
-        "{}{}{}{components}{relative} = {}",
-        row.prefix,
-        place_name(read, run),
-        row.suffix,
-        numbers(values, shown)
-    ))
+    }
 }
 
 /// What comes out of a run, as it stands in some registers: the outputs that the shader writes.

@@ -14,7 +14,7 @@ use texcrd::diagnostic::{Diagnostic, Severity, SourceMap, any_error};
 use texcrd::extract::{self, NotOne};
 use texcrd::kernel::{self, Kernel};
 use texcrd::listing;
-use texcrd::policy::{Dialect, Model};
+use texcrd::policy::{Dialect, Model, Policies};
 use texcrd::preprocess::{self, Definition, Folders};
 use texcrd::program::Program;
 use texcrd::scene::{DirectoryResolver, LoadOptions, RenderOptions, Scene};
@@ -87,17 +87,26 @@ impl Loaded {
             Some(name) => name.parse().map_err(|e| format!("model: {e}"))?,
             None => Model::default(),
         };
+        let mut policies = Policies::default();
+        for (name, value) in arguments.policies.iter().flatten() {
+            let set = policies.set(&format!("{name}={value}"));
+            set.map_err(|e| format!("policies: {e}"))?;
+        }
+        let options = LoadOptions {
+            dialect,
+            model,
+            policies,
+        };
         match is_scene(&path) {
-            true => Self::scene(arguments, &path, dialect, model),
-            false => Self::listing(arguments, &path, dialect, model),
+            true => Self::scene(arguments, &path, &options),
+            false => Self::listing(arguments, &path, &options),
         }
     }
 
     fn scene(
         arguments: LaunchArguments,
         path: &Path,
-        dialect: Dialect,
-        model: Model,
+        options: &LoadOptions,
     ) -> Result<Self, Problem> {
         let name = path.display().to_string();
         let one = match (arguments.pixel, arguments.vertex) {
@@ -120,16 +129,7 @@ impl Loaded {
         }
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolver = DirectoryResolver::new(folder);
-        let scene = Scene::load(
-            &name,
-            &read(path)?,
-            &resolver,
-            &LoadOptions {
-                dialect,
-                model,
-                ..LoadOptions::default()
-            },
-        );
+        let scene = Scene::load(&name, &read(path)?, &resolver, options);
         let scene = scene.map_err(|error| refused(&name, error.sources, error.diagnostics))?;
         Ok(Self {
             arguments,
@@ -140,8 +140,7 @@ impl Loaded {
     fn listing(
         arguments: LaunchArguments,
         path: &Path,
-        dialect: Dialect,
-        model: Model,
+        loading: &LoadOptions,
     ) -> Result<Self, Problem> {
         let of_scenes = [
             ("pixel", arguments.pixel.is_some()),
@@ -156,13 +155,20 @@ impl Loaded {
         }
         let name = path.display().to_string();
         let mut sources = SourceMap::new();
-        let (program, warnings) = shader(&arguments, &name, read(path)?, dialect, &mut sources)
-            .map_err(|why| match why {
-                Refused::Words(why) => format!("{name}: {why}").into(),
-                Refused::Diagnostics(found) => refused(&name, std::mem::take(&mut sources), found),
-            })?;
+        let (program, warnings) = shader(
+            &arguments,
+            &name,
+            read(path)?,
+            loading.dialect,
+            &mut sources,
+        )
+        .map_err(|why| match why {
+            Refused::Words(why) => format!("{name}: {why}").into(),
+            Refused::Diagnostics(found) => refused(&name, std::mem::take(&mut sources), found),
+        })?;
         let options = kernel::Options {
-            model,
+            model: loading.model,
+            policies: loading.policies,
             ..kernel::Options::default()
         };
         let kernel =

@@ -39,6 +39,8 @@ pub(in crate::servers) struct LaunchArguments {
     pub dialect: Option<String>,
     /// With which numbers pixel shaders compute.
     pub model: Option<String>,
+    /// Numeric choices, value by name.
+    pub policies: Option<BTreeMap<String, String>>,
     /// Of a file with several listings, the one that is meant: its name, or its number from 1.
     pub shader: Option<String>,
     /// Macros, each `NAME` or `NAME=VALUE`.

@@ -563,3 +563,38 @@ fn lines_are_completed_where_the_caret_is() {
         .clone();
     assert!(!targets.as_array().unwrap().is_empty());
 }
+
+/// 128/255 squared is 64.25/255, written as 64/255 = 0.2509804; twice of it, as an expression, is a float. c0 is set to 1, and the
+/// definition holds under the policy: 0.25.
+#[test]
+fn listings_run_with_models_and_policies() {
+    let listing = "ps.1.1\ndef c0, 0.25, 0, 0, 1\nmul r0, v0, v0\nmov r1, c0\nadd r0, r0, r1\n";
+    let folder = Folder::new(&[("a.psh", listing)]);
+    let mut client = Client::new();
+    let launch = json!({
+        "program": folder.path("a.psh"), "model": "gf3", "policies": { "def": "always" },
+        "set": { "v0": [0.5], "c0": [1] },
+    });
+    client.done("launch", launch);
+    client.done("configurationDone", json!({}));
+    client.done("next", json!({ "threadId": 1 }));
+    assert_eq!(
+        client.value("Registers", "r0"),
+        "0.2509804, 0.2509804, 0.2509804, 0.2509804 ← changed"
+    );
+    let twice = json!({ "expression": "r0.r * 2", "context": "hover" });
+    assert_eq!(client.body("evaluate", twice)["result"], "0.5019608");
+    client.done("next", json!({ "threadId": 1 }));
+    assert_eq!(
+        client.value("Registers", "r1"),
+        "0.2509804, 0, 0, 1 ← changed"
+    );
+    let mut client = Client::new();
+    for (policies, words) in [
+        (json!({ "def": "never" }), "when-set, always"),
+        (json!({ "rcp": "0" }), "rcp-zero"),
+    ] {
+        let launch = json!({ "program": folder.path("a.psh"), "policies": policies });
+        client.refused("launch", launch, words);
+    }
+}
