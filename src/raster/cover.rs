@@ -39,7 +39,7 @@ impl Fragment {
 /// A vertex on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScreenPosition {
-    /// The column, to the right, rounded to 1/256 as coverage sees it; pixel centres are whole numbers.
+    /// The column, to the right, rounded to 1/8192 as coverage and interpolation see it; pixel centres are whole numbers.
     pub x: f32,
     /// The row, downwards, rounded in the same way.
     pub y: f32,

@@ -1,9 +1,7 @@
 //! From primitives to what is drawn on the screen: fixed-point edges, and planes for all that is interpolated.
 //!
-//! Edges run between screen positions that are rounded to 1/256 pixel. Edge functions are exact integers, so each pixel belongs
-//! to exactly one of the triangles around a shared edge. What is interpolated over a triangle follows from the positions before
-//! rounding: the viewport transform of Direct3D 8 knows no subpixels, and where a texture is made smaller a shift of 1/512
-//! pixel is seen.
+//! Screen positions are rounded to 1/8192 pixel before anything is derived from them. Edge functions are exact integers, so
+//! each pixel belongs to exactly one of the triangles around a shared edge.
 
 use super::clip::{ClipVertex, Clipper, GUARD, SHARES};
 use super::cover::ScreenPosition;
@@ -13,7 +11,11 @@ use super::state::{CullMode, DEPTH_BIAS_STEP, FillMode, Viewport};
 use super::{DrawCall, DrawError, Topology, Vertex};
 
 /// Subpixels of a pixel.
-pub(super) const SUBPIXELS: i64 = 256;
+///
+/// The documents round nothing, and steps of 1/256 are seen wherever a texture is made smaller: a coordinate that moves by
+/// many texels a pixel moves by a part of one in half a step. These are as fine as edge functions of 64 bits allow between
+/// corners in the guard band; yet positions that were meant to lie on pixel centres still come to lie there.
+pub(super) const SUBPIXELS: i64 = 8192;
 
 /// A linear function of the pixel position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,15 +49,13 @@ pub(super) struct Corner {
     /// In subpixels.
     pub(super) x: i64,
     pub(super) y: i64,
-    /// In pixels, before rounding to subpixels.
-    exact: [f64; 2],
     pub(super) z: f64,
     pub(super) w: f64,
     pub(super) shares: [f64; 2],
 }
 
 impl Corner {
-    /// The rounded position in pixels.
+    /// The position in pixels.
     pub(super) fn pixels(&self) -> [f64; 2] {
         [self.x, self.y].map(|v| v as f64 / SUBPIXELS as f64)
     }
@@ -259,9 +259,8 @@ impl<'a> Stage<'a> {
             corners.swap(1, 2);
         }
         let bounds = Bounds::around(&corners).intersect(&self.scissor)?;
-        let places = places_of_planes(&corners);
-        let [[x0, y0], [x1, y1], [x2, y2]] = places;
-        let area = doubled_area_in_pixels(&places);
+        let area = doubled_area(corners.each_ref()) as f64 / (SUBPIXELS * SUBPIXELS) as f64;
+        let [[x0, y0], [x1, y1], [x2, y2]] = corners.map(|corner| corner.pixels());
         let planes = Planes::new(&corners, |[v0, v1, v2]| {
             let dx = ((v1 - v0) * (y2 - y0) - (v2 - v0) * (y1 - y0)) / area;
             let dy = ((v2 - v0) * (x1 - x0) - (v1 - v0) * (x2 - x0)) / area;
@@ -294,44 +293,22 @@ impl<'a> Stage<'a> {
         // Cuts near w = 0 are rounded too; whatever comes of that lies outside of every target.
         let w = w.max(f64::from(f32::MIN_POSITIVE));
         let viewport = &self.viewport;
-        let near = |v: f64| match v.is_nan() {
-            true => 0.0,
-            false => v.clamp(-2.0 * GUARD, 2.0 * GUARD),
-        };
         let snap = |v: f64| {
+            let v = if v.is_nan() { 0.0 } else { v };
             // To the nearest subpixel. Made positive first, so that cutting off the fraction rounds downwards.
             let shift = 4.0 * GUARD * SUBPIXELS as f64;
-            (v * SUBPIXELS as f64 + 0.5 + shift) as i64 - shift as i64
+            (v.clamp(-2.0 * GUARD, 2.0 * GUARD) * SUBPIXELS as f64 + 0.5 + shift) as i64
+                - shift as i64
         };
-        let exact = [
-            near(f64::from(viewport.x) + (x / w + 1.0) * f64::from(viewport.width) / 2.0),
-            near(f64::from(viewport.y) + (1.0 - y / w) * f64::from(viewport.height) / 2.0),
-        ];
         let (min_z, max_z) = (f64::from(viewport.min_z), f64::from(viewport.max_z));
         Corner {
-            x: snap(exact[0]),
-            y: snap(exact[1]),
-            exact,
+            x: snap(f64::from(viewport.x) + (x / w + 1.0) * f64::from(viewport.width) / 2.0),
+            y: snap(f64::from(viewport.y) + (1.0 - y / w) * f64::from(viewport.height) / 2.0),
             z: min_z + (z / w).clamp(0.0, 1.0) * (max_z - min_z),
             w,
             shares: corner.shares,
         }
     }
-}
-
-/// Where the planes of a triangle, clockwise by its rounded positions, are put through its corners: before rounding, but for a
-/// sliver so thin that rounding makes most of its area. Its planes would be far too steep for pixels that only rounding brings
-/// in.
-fn places_of_planes(corners: &[Corner; 3]) -> [[f64; 2]; 3] {
-    let exact = corners.map(|corner| corner.exact);
-    let rounded = corners.map(|corner| corner.pixels());
-    let sliver = doubled_area_in_pixels(&exact) * 2.0 < doubled_area_in_pixels(&rounded);
-    if sliver { rounded } else { exact }
-}
-
-/// Twice the area in square pixels, signed as [`doubled_area`].
-fn doubled_area_in_pixels([a, b, c]: &[[f64; 2]; 3]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 }
 
 /// Twice the area in square subpixels, positive for clockwise triangles on a screen whose y points down.
