@@ -37,6 +37,10 @@ pub struct Pass<'a> {
     pub size: [u32; 2],
     /// Its colour before the first draw, red, green, blue, alpha; depth is 1, stencil 0.
     pub clear: [f32; 4],
+    /// From the world to its camera, for column vectors: `view * position`.
+    pub view: Mat4,
+    /// From its camera to clip space, for column vectors.
+    pub projection: Mat4,
     /// The draws in order.
     pub draws: Vec<PreparedDraw<'a>>,
 }
@@ -50,6 +54,8 @@ pub struct PreparedDraw<'a> {
     pub number: usize,
     /// What feeds the vertex shader.
     pub mesh: &'a Mesh,
+    /// From the mesh to the world, for column vectors. The shaders know it only from constants that the scene file sets.
+    pub world: Mat4,
     /// Which attribute feeds which register.
     pub declaration: &'a Declaration,
     /// How vertices make up primitives. A triangle list takes the indices of the mesh, everything else its vertices in
@@ -133,15 +139,20 @@ impl Scene {
                     },
                     size: target.size,
                     clear: target.clear,
+                    view: view.0,
+                    projection: view.1,
                     draws: self.prepare(&target.draws, view, target.size),
                 });
             }
         }
+        let view = self.picture_matrices(size);
         passes.push(Pass {
             output: Output::Picture,
             size,
             clear: self.clear,
-            draws: self.prepare(&self.picture, self.picture_matrices(size), size),
+            view: view.0,
+            projection: view.1,
+            draws: self.prepare(&self.picture, view, size),
         });
         passes
     }
@@ -173,6 +184,7 @@ impl Scene {
                     name: &draw.name,
                     number,
                     mesh: self.meshes.get(draw.mesh)?,
+                    world: draw.world,
                     declaration: &draw.declaration,
                     topology: draw.topology,
                     vertex: &draw.vertex,
