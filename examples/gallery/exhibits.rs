@@ -43,6 +43,15 @@ const MIRROR: Subject = Subject {
     ..BALL
 };
 
+/// The window of the article, in a room of its own.
+const WINDOW: Subject = Subject {
+    draw: "pane",
+    left_out: &["frame"],
+    law: Law::Pane,
+    center: DVec3::new(0.0, 2.0, 0.0),
+    ..MIRROR
+};
+
 /// Looks up the environment in its first stage.
 const FIRST: Subject = Subject {
     looks: &[(0, Look::Cube)],
@@ -92,8 +101,20 @@ const fn piece(
     }
 }
 
+/// A piece that is shown, and not measured.
+const fn shown(folder: &'static str, scene: &'static str, title: &'static str) -> Piece {
+    Piece {
+        folder,
+        scene,
+        title,
+        subject: None,
+        endless: false,
+    }
+}
+
 /// All of them, in the order of the gallery.
 pub(crate) const PIECES: &[Piece] = &[
+    shown("cube_map", "scene", "a cube map of the room"),
     piece(
         "reflection",
         "per_vertex",
@@ -147,6 +168,9 @@ pub(crate) const PIECES: &[Piece] = &[
             ..BALL
         },
     ),
+    shown("stained_glass", "scene", "stained glass"),
+    piece("stained_glass", "figure1", "window, plain", false, WINDOW),
+    piece("stained_glass", "figure5", "window, Brennan", false, WINDOW),
     piece("correction", "mirror_plain", "mirror, plain", false, MIRROR),
     piece("correction", "mirror", "mirror, Brennan", false, MIRROR),
     piece("correction", "ball_plain", "ball, plain", false, BALL),
@@ -186,7 +210,35 @@ pub(crate) const PIECES: &[Piece] = &[
             ..STANDING
         },
     ),
+    shown("showcases", "bumpenv", "texbeml, ps.1.1"),
+    shown("showcases", "toon", "texdp3tex, ps.1.2"),
+    shown("showcases", "depth_sprites", "texm3x2depth, ps.1.3"),
+    shown("showcases", "skinning", "a0.x, vs.1.1"),
+    shown("showcases", "points", "oPts, vs.1.1"),
+    shown("showcases", "fog", "oFog, vs.1.1"),
 ];
+
+/// The pieces that open the project's page, by folder and scene.
+pub(crate) const CONTACT: &[[&str; 2]] = &[
+    ["stained_glass", "scene"],
+    ["cube_map", "scene"],
+    ["reflection", "per_pixel"],
+    ["refraction", "fitted"],
+    ["dispersion", "scene"],
+    ["correction", "mirror"],
+    ["sphere", "dome_per_pixel"],
+    ["planar", "solved"],
+    ["impostors", "impostors"],
+    ["showcases", "bumpenv"],
+    ["showcases", "toon"],
+    ["showcases", "depth_sprites"],
+    ["showcases", "skinning"],
+    ["showcases", "points"],
+    ["showcases", "fog"],
+];
+
+/// Folders that have pictures of their own.
+pub(crate) const WITHOUT_SHEET: &[&str] = &["stained_glass"];
 
 /// Folders whose errors are plotted by the angle of incidence.
 pub(crate) const PLOTTED: &[&str] = &["refraction"];

@@ -25,6 +25,9 @@ use std::path::Path;
 use std::time::Instant;
 use texcrd::scene::{DirectoryResolver, LoadOptions, Output, RenderOptions, Scene};
 
+/// All pictures are of this size.
+const SIZE: [u32; 2] = [400, 300];
+
 /// A piece after its scene was rendered.
 pub(crate) struct Done {
     pub(crate) piece: &'static Piece,
@@ -59,7 +62,11 @@ fn run(piece: &'static Piece) -> Result<Done, Box<dyn Error>> {
     let bytes = std::fs::read(folder.join(&name))?;
     let resolver = DirectoryResolver::new(&folder);
     let scene = Scene::load(&name, &bytes, &resolver, &LoadOptions::default())?;
-    let rendering = scene.rendering(&RenderOptions::default(), &|_| ())?;
+    let options = RenderOptions {
+        size: Some(SIZE),
+        show: None,
+    };
+    let rendering = scene.rendering(&options, &|_| ())?;
     let draws = (rendering.pass(Output::Picture)).map_or(&[][..], |pass| &pass.draws);
     let subject = piece.subject.map(|subject| subject.draw);
     let shown = draws.iter().find(|draw| subject == Some(draw.name));

@@ -1,12 +1,17 @@
 //! The pages of the gallery: sheets of pictures, and tables between two marks in Markdown files.
 
 use crate::Done;
-use crate::exhibits::{PLOTTED, Piece};
+use crate::exhibits::{CONTACT, PLOTTED, Piece, WITHOUT_SHEET};
 use crate::plot::{Axis, Line, means, plot};
-use image::RgbaImage;
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::imageops::{self, resize};
+use image::{DynamicImage, RgbaImage};
 use std::error::Error;
-use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
 use texcrd::kernel::Slot;
 use texcrd::raster::{Look, RegisterPicture};
 use texcrd::sheet::{Dressing, Tile, compose};
@@ -60,14 +65,20 @@ pub(crate) fn write(all: &[Done], everything: bool) -> Result<(), Box<dyn Error>
             continue;
         };
         let place = Path::new("asm").join(folder);
-        sheet(pieces)?.save(place.join(format!("{folder}.png")))?;
+        if !WITHOUT_SHEET.contains(folder) {
+            save(&sheet(pieces)?, &place.join(format!("{folder}.png")))?;
+        }
         put(&place.join("README.md"), &table(pieces, false))?;
         if PLOTTED.contains(folder) {
             std::fs::write(place.join("errors.svg"), by_incidence(pieces))?;
         }
     }
     if everything {
-        put(&PathBuf::from("asm/README.md"), &table(all, true))?;
+        put(Path::new("asm/README.md"), &table(all, true))?;
+        let rgb = DynamicImage::ImageRgba8(contact(all)?).into_rgb8();
+        let mut file = BufWriter::new(File::create("docs/gallery.jpg")?);
+        JpegEncoder::new_with_quality(&mut file, 88).encode_image(&rgb)?;
+        file.flush()?;
     }
     Ok(())
 }
@@ -78,7 +89,8 @@ fn sheet(pieces: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
     for (number, done) in pieces.iter().enumerate() {
         let title = done.piece.title;
         let caption = match cells(done) {
-            Some([mean, ..]) => format!("{title}: {mean}"),
+            // The letters on pictures have no degree sign.
+            Some([mean, ..]) => format!("{title}: {}", mean.replace('°', " deg")),
             None => title.to_owned(),
         };
         tiles.push((caption, &done.picture));
@@ -89,7 +101,27 @@ fn sheet(pieces: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
             tiles.push(("traced".to_owned(), &measured.traced));
         }
     }
-    let size = pieces.first().map_or([1, 1], |done| done.picture.dimensions().into());
+    side_by_side(&tiles)
+}
+
+/// The pictures that open the project's page, smaller.
+fn contact(all: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
+    let pictures = CONTACT.iter().filter_map(|[folder, scene]| {
+        let piece = |done: &&Done| done.piece.folder == *folder && done.piece.scene == *scene;
+        let done = all.iter().find(piece)?;
+        let small = resize(&done.picture, 280, 210, imageops::FilterType::Triangle);
+        Some((done.piece.title.to_owned(), small))
+    });
+    let pictures: Vec<_> = pictures.collect();
+    let tiles: Vec<_> = (pictures.iter())
+        .map(|(caption, picture)| (caption.clone(), picture))
+        .collect();
+    side_by_side(&tiles)
+}
+
+/// Pictures of one size on a sheet, with captions.
+fn side_by_side(tiles: &[(String, &RgbaImage)]) -> Result<RgbaImage, Box<dyn Error>> {
+    let size = tiles.first().map_or([1, 1], |(_, picture)| picture.dimensions().into());
     let described: Vec<_> = (tiles.iter())
         .map(|(caption, _)| Tile {
             caption: caption.clone(),
@@ -132,6 +164,16 @@ fn by_incidence(pieces: &[Done]) -> String {
     plot(&across, &up, &lines.collect::<Vec<_>>())
 }
 
+/// A PNG that is as small as can be.
+fn save(picture: &RgbaImage, path: &Path) -> Result<(), Box<dyn Error>> {
+    let rgb = DynamicImage::ImageRgba8(picture.clone()).into_rgb8();
+    let mut file = BufWriter::new(File::create(path)?);
+    let encoder =
+        PngEncoder::new_with_quality(&mut file, CompressionType::Best, FilterType::Adaptive);
+    rgb.write_with_encoder(encoder)?;
+    Ok(file.flush()?)
+}
+
 fn same_truth(one: &Done, next: &Done) -> bool {
     match (&one.measured, &next.measured) {
         (Some(one), Some(next)) => one.traced == next.traced,
@@ -150,9 +192,8 @@ fn table(pieces: &[Done], links: bool) -> String {
             true => format!("[`{folder}/{scene}`]({folder}/README.md)"),
             false => format!("[`{scene}.toml`]({scene}.toml)"),
         };
-        let Some([mean, worst, difference]) = cells(done) else {
-            continue;
-        };
+        let none = || ["–"; 3].map(str::to_owned);
+        let [mean, worst, difference] = cells(done).unwrap_or_else(none);
         let (vertex, phases) = &done.slots;
         let phases: Vec<_> = (phases.iter())
             .map(|[texture, arithmetic]| format!("{texture} + {arithmetic}"))

@@ -13,6 +13,7 @@ const ROOTS: u32 = 4096;
 pub(crate) fn write() -> Result<(), Box<dyn Error>> {
     roots().save("asm/sphere/roots.png")?;
     ripples().save("asm/planar/ripples.png")?;
+    std::fs::write("asm/showcases/waves.toml", waves())?;
     Ok(())
 }
 
@@ -39,13 +40,46 @@ const WAVES: [([f64; 2], f64); 4] = [
 fn ripples() -> RgbImage {
     RgbImage::from_fn(RIPPLES, RIPPLES, |x, y| {
         let [u, v] = [x, y].map(|at| (f64::from(at) + 0.5) / f64::from(RIPPLES));
-        let mut slope = [0.0, 0.0];
-        for ([across, down], height) in WAVES {
-            let wave = height * (std::f64::consts::TAU * (across * u + down * v)).cos();
-            let length = f64::hypot(across, down);
-            slope = [slope[0] + wave * across / length, slope[1] + wave * down / length];
-        }
+        let (slope, _) = wave([u, v]);
         let normal = glam::DVec3::new(slope[0], slope[1], 1.0).normalize();
         Rgb((normal * 127.5 + 128.0).to_array().map(|part| part as u8))
     })
+}
+
+/// Slope of the water at a place of the map, and its height, both about -0.1 to 0.1.
+fn wave([u, v]: [f64; 2]) -> ([f64; 2], f64) {
+    let (mut slope, mut height) = ([0.0, 0.0], 0.0);
+    for ([across, down], part) in WAVES {
+        let (sine, cosine) = (std::f64::consts::TAU * (across * u + down * v)).sin_cos();
+        let length = f64::hypot(across, down);
+        slope = [
+            slope[0] + part * cosine * across / length,
+            slope[1] + part * cosine * down / length,
+        ];
+        height += part * sine;
+    }
+    (slope, height)
+}
+
+/// The edge of the map of [`waves`] in texels.
+const PUSHED: u32 = 32;
+
+/// The same water as `X8L8V8U8`: how far it pushes what is seen through it, signed, and how bright it makes it.
+fn waves() -> String {
+    let mut text = String::from(
+        "# Waves for texbeml, X8L8V8U8: 0x00 luminance, v, u. Written by `cargo run --release --example gallery`.\n\n\
+         [textures.waves]\nkind = \"2d\"\nformat = \"x8l8v8u8\"\n",
+    );
+    text += &format!("size = [{PUSHED}, {PUSHED}]\nraw = [\n");
+    for y in 0..PUSHED {
+        for x in 0..PUSHED {
+            let place = [x, y].map(|at| (f64::from(at) + 0.5) / f64::from(PUSHED));
+            let ([across, down], height) = wave(place);
+            let signed = |slope: f64| u32::from((slope * 10.0 * 127.0).clamp(-127.0, 127.0) as i8 as u8);
+            let luminance = ((0.5 + 5.0 * height) * 255.0).clamp(0.0, 255.0) as u32;
+            let word = luminance << 16 | signed(down) << 8 | signed(across);
+            text += &format!("0x{word:08x},{}", if x % 8 == 7 { "\n" } else { " " });
+        }
+    }
+    text + "]\n"
 }
