@@ -218,23 +218,23 @@ pub(crate) const PIECES: &[Piece] = &[
     shown("showcases", "fog", "oFog, vs.1.1"),
 ];
 
-/// The pieces that open the project's page, by folder and scene.
-pub(crate) const CONTACT: &[[&str; 2]] = &[
-    ["stained_glass", "scene"],
-    ["cube_map", "scene"],
-    ["reflection", "per_pixel"],
-    ["refraction", "fitted"],
-    ["dispersion", "scene"],
-    ["correction", "mirror"],
-    ["sphere", "dome_per_pixel"],
-    ["planar", "solved"],
-    ["impostors", "impostors"],
-    ["showcases", "bumpenv"],
-    ["showcases", "toon"],
-    ["showcases", "depth_sprites"],
-    ["showcases", "skinning"],
-    ["showcases", "points"],
-    ["showcases", "fog"],
+/// The pieces that open the project's page, by folder and scene, with their captions.
+pub(crate) const CONTACT: &[[&str; 3]] = &[
+    ["stained_glass", "scene", "stained glass"],
+    ["cube_map", "scene", "cube map"],
+    ["reflection", "per_pixel", "reflection"],
+    ["refraction", "fitted", "refraction"],
+    ["dispersion", "scene", "Fresnel and dispersion"],
+    ["correction", "mirror", "Brennan's correction"],
+    ["sphere", "dome_per_pixel", "exact sphere"],
+    ["planar", "solved", "rippled planar mirror"],
+    ["impostors", "impostors", "impostors"],
+    ["showcases", "bumpenv", "texbeml"],
+    ["showcases", "toon", "texdp3tex"],
+    ["showcases", "depth_sprites", "texm3x2depth"],
+    ["showcases", "skinning", "a0.x"],
+    ["showcases", "points", "oPts"],
+    ["showcases", "fog", "oFog"],
 ];
 
 /// Folders that have pictures of their own.

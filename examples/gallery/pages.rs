@@ -106,11 +106,11 @@ fn sheet(pieces: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
 
 /// The pictures that open the project's page, smaller.
 fn contact(all: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
-    let pictures = CONTACT.iter().filter_map(|[folder, scene]| {
+    let pictures = CONTACT.iter().filter_map(|[folder, scene, title]| {
         let piece = |done: &&Done| done.piece.folder == *folder && done.piece.scene == *scene;
         let done = all.iter().find(piece)?;
         let small = resize(&done.picture, 280, 210, imageops::FilterType::Triangle);
-        Some((done.piece.title.to_owned(), small))
+        Some(((*title).to_owned(), small))
     });
     let pictures: Vec<_> = pictures.collect();
     let tiles: Vec<_> = (pictures.iter())
@@ -158,8 +158,8 @@ fn by_incidence(pieces: &[Done]) -> String {
     };
     let up = Axis {
         name: "error of the direction in degrees",
-        end: 14.0,
-        step: 2.0,
+        end: 24.0,
+        step: 4.0,
     };
     plot(&across, &up, &lines.collect::<Vec<_>>())
 }
