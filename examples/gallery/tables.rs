@@ -4,7 +4,7 @@ use image::{Rgb, RgbImage};
 use std::error::Error;
 
 /// Texels of the table of square roots.
-const ROOTS: u32 = 4096;
+const ROOTS: u32 = 256;
 
 /// Writes the tables into the folders that use them.
 ///
@@ -17,12 +17,11 @@ pub(crate) fn write() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The square root of each texel's coordinate, its centre: red + green / 256.
+/// The square root of each texel's coordinate, its centre: what it is above 0.9, times ten.
 fn roots() -> RgbImage {
     RgbImage::from_fn(ROOTS, 1, |x, _| {
-        let root = ((f64::from(x) + 0.5) / f64::from(ROOTS)).sqrt() * 255.0;
-        let rest = (root.fract() * 256.0).floor();
-        Rgb([root as u8, rest.min(255.0) as u8, 0])
+        let root = ((f64::from(x) + 0.5) / f64::from(ROOTS)).sqrt();
+        Rgb([((root - 0.9) * 2550.0 + 0.5).clamp(0.0, 255.0) as u8; 3])
     })
 }
 
