@@ -25,9 +25,13 @@ pub(crate) enum Look {
 /// The body, as an exhibit describes it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Form {
-    Ball { radius: f64 },
+    Ball {
+        radius: f64,
+    },
     /// The triangles of the draw. `normals`: the stage of its normal map.
-    Mesh { normals: Option<usize> },
+    Mesh {
+        normals: Option<usize>,
+    },
 }
 
 /// What is measured of a scene.
@@ -106,7 +110,9 @@ pub(crate) fn measure(rendering: &Rendering<'_>, subject: &Subject) -> Result<Me
     let camera = Camera::new(pass);
     let stages: Vec<u8> = subject.looks.iter().map(|(stage, _)| *stage).collect();
     let seen = seen(rendering, draw, &stages).ok_or_else(|| missing(draw))?;
-    let room = World::new(rendering, |name| name != draw && !subject.left_out.contains(&name));
+    let room = World::new(rendering, |name| {
+        name != draw && !subject.left_out.contains(&name)
+    });
     let number = (pass.draws.iter()).position(|prepared| prepared.name == draw);
     let shaded = number.and_then(|number| rendering.shaded(Output::Picture, number));
     let shaded = shaded.ok_or_else(|| missing(draw))?;
@@ -114,16 +120,16 @@ pub(crate) fn measure(rendering: &Rendering<'_>, subject: &Subject) -> Result<Me
         Form::Ball { radius } => Body::Ball { center, radius },
         Form::Mesh { normals } => Body::Mesh {
             surface: World::new(rendering, |name| name == draw),
-            normals: normals
-                .and_then(|stage| shaded.environment().stages.get(stage)),
+            normals: normals.and_then(|stage| shaded.environment().stages.get(stage)),
         },
     };
     let cameras = subject.looks.iter().map(|(_, look)| match look {
         Look::Cube => Ok(None),
         Look::Flat(target) => (rendering.passes().iter())
             .find(|pass| match pass.output {
-                Output::Target { target: number, .. } => (rendering.scene().target(number))
-                    .is_some_and(|info| info.name == *target),
+                Output::Target { target: number, .. } => {
+                    (rendering.scene().target(number)).is_some_and(|info| info.name == *target)
+                }
                 Output::Picture => false,
             })
             .map(|pass| Some(Camera::new(pass)))
@@ -145,7 +151,10 @@ pub(crate) fn measure(rendering: &Rendering<'_>, subject: &Subject) -> Result<Me
             let errors = met.map(|met| {
                 let incidence = (-ray.direction.dot(met.normal)).clamp(-1.0, 1.0).acos();
                 let paths = subject.law.paths(&body, &ray, &met);
-                (incidence.to_degrees(), judge.errors(met.point, &paths, &seen.lookups))
+                (
+                    incidence.to_degrees(),
+                    judge.errors(met.point, &paths, &seen.lookups),
+                )
             });
             let mut color = DVec3::ZERO;
             for part in 0..RAYS * RAYS {
@@ -215,7 +224,10 @@ impl Sums {
     }
 
     fn picture(&mut self, picture: &Target, [x, y]: [u32; 2], color: DVec3) {
-        let [r, g, b, _] = picture.color(x, y).unwrap_or_default().map(|v| f64::from(v) / 255.0);
+        let [r, g, b, _] = picture
+            .color(x, y)
+            .unwrap_or_default()
+            .map(|v| f64::from(v) / 255.0);
         self.difference += (DVec3::new(r, g, b) - color).abs().element_sum();
         self.pixels += 1;
     }
@@ -230,7 +242,11 @@ struct Judge<'a> {
 impl Judge<'_> {
     /// The true colour that a ray brings.
     fn color(&self, body: &Body<'_>, ray: &Ray) -> DVec3 {
-        let seen = |ray: &Ray| self.room.hit(ray).map_or(DVec3::ZERO, |hit| self.room.color(&hit));
+        let seen = |ray: &Ray| {
+            self.room
+                .hit(ray)
+                .map_or(DVec3::ZERO, |hit| self.room.color(&hit))
+        };
         match body.meet(ray) {
             None => seen(ray),
             Some(met) => (self.subject.law.paths(body, ray, &met).iter())
@@ -270,11 +286,18 @@ impl Judge<'_> {
             let ahead = |place: &DVec3| flat || (place - point).dot(path.first) > 0.0;
             let places = directions.into_iter().zip(self.cameras);
             let place = places
-                .filter_map(|(place, camera)| place.filter(|place| camera.is_none() || ahead(place)))
+                .filter_map(|(place, camera)| {
+                    place.filter(|place| camera.is_none() || ahead(place))
+                })
                 .next_back();
-            return place.and_then(|place| error(path, place)).into_iter().collect();
+            return place
+                .and_then(|place| error(path, place))
+                .into_iter()
+                .collect();
         }
         let pairs = paths.iter().zip(directions);
-        pairs.filter_map(|(path, place)| error(path, place?)).collect()
+        pairs
+            .filter_map(|(path, place)| error(path, place?))
+            .collect()
     }
 }

@@ -27,3 +27,34 @@ pub(crate) fn fresnel(cosine: f64, index: f64) -> f64 {
     let along = (index * cosine - beyond) / (index * cosine + beyond);
     f64::midpoint(across * across, along * along)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mirror_turns_what_goes_into_it() {
+        // Down and to the right onto a floor: up and to the right.
+        let gone = reflect(DVec3::new(0.6, -0.8, 0.0), DVec3::Y);
+        assert!((gone - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-12);
+    }
+
+    #[test]
+    fn snells_law() {
+        // sin 30° = 0.5 becomes 0.5 / 1.25 = 0.4.
+        let incident = DVec3::new(0.5, -0.75f64.sqrt(), 0.0);
+        let gone =
+            refract(incident, DVec3::Y, 1.0 / 1.25).expect("into glass there is always a way");
+        assert!((gone.x - 0.4).abs() < 1e-12 && (gone.length() - 1.0).abs() < 1e-12);
+        // Out of glass 0.9 would become 1.125: total reflection.
+        let flat = DVec3::new(0.9, -0.19f64.sqrt(), 0.0);
+        assert_eq!(refract(flat, DVec3::Y, 1.25), None);
+    }
+
+    #[test]
+    fn how_much_is_reflected() {
+        // Straight on: ((1 - 1.5) / (1 + 1.5))^2 = 0.04. Along the surface: everything.
+        assert!((fresnel(1.0, 1.5) - 0.04).abs() < 1e-12);
+        assert!((fresnel(0.0, 1.5) - 1.0).abs() < 1e-12);
+    }
+}

@@ -25,7 +25,10 @@ pub(crate) fn line(done: &Done) -> String {
     let name = format!("{}/{}", done.piece.folder, done.piece.scene);
     match cells(done) {
         Some([mean, worst, difference]) => {
-            format!("{name:32} {mean:>8} {worst:>8} {difference:>8}   {}", slots(done))
+            format!(
+                "{name:32} {mean:>8} {worst:>8} {difference:>8}   {}",
+                slots(done)
+            )
         }
         None => format!("{name:32} {:>26}   {}", "", slots(done)),
     }
@@ -96,7 +99,9 @@ fn sheet(pieces: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
         tiles.push((caption, &done.picture));
         // The truth is the same for all techniques that try to show it.
         if let Some(measured) = &done.measured
-            && pieces.get(number + 1).is_none_or(|next| !same_truth(done, next))
+            && pieces
+                .get(number + 1)
+                .is_none_or(|next| !same_truth(done, next))
         {
             tiles.push(("traced".to_owned(), &measured.traced));
         }
@@ -121,7 +126,9 @@ fn contact(all: &[Done]) -> Result<RgbaImage, Box<dyn Error>> {
 
 /// Pictures of one size on a sheet, with captions.
 fn side_by_side(tiles: &[(String, &RgbaImage)]) -> Result<RgbaImage, Box<dyn Error>> {
-    let size = tiles.first().map_or([1, 1], |(_, picture)| picture.dimensions().into());
+    let size = tiles
+        .first()
+        .map_or([1, 1], |(_, picture)| picture.dimensions().into());
     let described: Vec<_> = (tiles.iter())
         .map(|(caption, _)| Tile {
             caption: caption.clone(),
@@ -138,7 +145,9 @@ fn side_by_side(tiles: &[(String, &RgbaImage)]) -> Result<RgbaImage, Box<dyn Err
         bars: false,
     };
     let picture = |number: usize| {
-        tiles.get(number).map_or_else(RgbaImage::default, |(_, picture)| (*picture).clone())
+        tiles
+            .get(number)
+            .map_or_else(RgbaImage::default, |(_, picture)| (*picture).clone())
     };
     Ok(compose(&described, size, dressing, &[], picture)?)
 }
@@ -187,7 +196,12 @@ fn table(pieces: &[Done], links: bool) -> String {
          | --- | --- | --- | --- | --- | --- | --- |\n",
     );
     for done in pieces {
-        let Piece { folder, scene, title, .. } = done.piece;
+        let Piece {
+            folder,
+            scene,
+            title,
+            ..
+        } = done.piece;
         let scene = match links {
             true => format!("[`{folder}/{scene}`]({folder}/README.md)"),
             false => format!("[`{scene}.toml`]({scene}.toml)"),
@@ -218,7 +232,9 @@ fn put(page: &Path, text: &str) -> Result<(), Box<dyn Error>> {
     let Some((before, rest)) = old.split_once(BEGIN) else {
         return Ok(());
     };
-    let (_, after) = rest.split_once(END).ok_or_else(|| format!("{name}: no line `{END}`"))?;
+    let (_, after) = rest
+        .split_once(END)
+        .ok_or_else(|| format!("{name}: no line `{END}`"))?;
     std::fs::write(page, format!("{before}{BEGIN}\n{text}{END}{after}"))?;
     Ok(())
 }

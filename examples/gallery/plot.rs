@@ -92,7 +92,10 @@ pub(crate) fn means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
             *count += 1;
         }
     }
-    let filled = bins.into_iter().enumerate().filter(|(_, (_, count))| *count > 0);
+    let filled = bins
+        .into_iter()
+        .enumerate()
+        .filter(|(_, (_, count))| *count > 0);
     filled
         .map(|(at, (sum, count))| [at as f64 + 0.5, sum / f64::from(count)])
         .collect()

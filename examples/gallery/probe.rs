@@ -4,7 +4,8 @@ use std::sync::Mutex;
 use texcrd::exec::{Lanes, Machine, Observer};
 use texcrd::kernel::{Kernel, Op};
 use texcrd::raster::{
-    ColorFormat, LANES, PixelBatch, PixelInputs, PixelProgram, PixelResult, PixelShader, Target, draw,
+    ColorFormat, LANES, PixelBatch, PixelInputs, PixelProgram, PixelResult, PixelShader, Target,
+    draw,
 };
 use texcrd::scene::{Output, Rendering};
 
@@ -39,7 +40,12 @@ pub(crate) fn seen(rendering: &Rendering<'_>, name: &str, stages: &[u8]) -> Opti
     };
     let mut target = Target::new(width, height, ColorFormat::A8R8G8B8).ok()?;
     target.clear(None, Some(1.0), Some(0));
-    draw(&mut target, &shaded.call(&shaded.draw().state, [width, height]), &probe).ok()?;
+    draw(
+        &mut target,
+        &shaded.call(&shaded.draw().state, [width, height]),
+        &probe,
+    )
+    .ok()?;
     let found = probe.found.into_inner().ok()?;
     let picture = rendering.picture();
     let seen = found.into_iter().enumerate().filter_map(|(at, found)| {
@@ -86,7 +92,10 @@ impl PixelShader for Probe<'_> {
             let Some(place) = found.get_mut(at) else {
                 continue;
             };
-            if place.as_ref().is_none_or(|(depth, _)| batch.z[lane] < *depth) {
+            if place
+                .as_ref()
+                .is_none_or(|(depth, _)| batch.z[lane] < *depth)
+            {
                 let lookups = watch.lookups.iter().map(|lanes| lanes[lane]).collect();
                 *place = Some((batch.z[lane], lookups));
             }

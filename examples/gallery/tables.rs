@@ -74,7 +74,8 @@ fn waves() -> String {
         for x in 0..PUSHED {
             let place = [x, y].map(|at| (f64::from(at) + 0.5) / f64::from(PUSHED));
             let ([across, down], height) = wave(place);
-            let signed = |slope: f64| u32::from((slope * 10.0 * 127.0).clamp(-127.0, 127.0) as i8 as u8);
+            let signed =
+                |slope: f64| u32::from((slope * 10.0 * 127.0).clamp(-127.0, 127.0) as i8 as u8);
             let luminance = ((0.5 + 5.0 * height) * 255.0).clamp(0.0, 255.0) as u32;
             let word = luminance << 16 | signed(down) << 8 | signed(across);
             text += &format!("0x{word:08x},{}", if x % 8 == 7 { "\n" } else { " " });

@@ -94,7 +94,10 @@ impl Tree {
         let mut nearest = f64::INFINITY;
         let mut found = None;
         let mut waiting = vec![0];
-        while let Some(node) = waiting.pop().and_then(|number: usize| self.nodes.get(number)) {
+        while let Some(node) = waiting
+            .pop()
+            .and_then(|number: usize| self.nodes.get(number))
+        {
             let (one, other) = (
                 (node.low - ray.origin) * inverse,
                 (node.high - ray.origin) * inverse,
@@ -142,4 +145,37 @@ fn meet(ray: &Ray, [a, b, c]: &[DVec3; 3]) -> Option<(f64, [f64; 2])> {
     let third = ray.direction.dot(other) / determinant;
     let inside = second >= 0.0 && third >= 0.0 && second + third <= 1.0;
     inside.then(|| (ac.dot(other) / determinant, [second, third]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Walls at z = 1, 2, … of two triangles each, many more than a leaf holds.
+    fn walls() -> Tree {
+        let wall = |z: f64| {
+            let at = |x: f64, y: f64| DVec3::new(x, y, z);
+            let (a, b, c, d) = (at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0));
+            [[a, b, c], [a, c, d]]
+        };
+        Tree::new((1..=50).flat_map(|z| wall(f64::from(z))).collect())
+    }
+
+    #[test]
+    fn the_nearest_wall_is_met() {
+        let tree = walls();
+        let from = |z: f64, direction: DVec3| {
+            let origin = DVec3::new(0.25, -0.5, z);
+            tree.hit(&Ray { origin, direction })
+        };
+        // From between two walls forwards and backwards: below the diagonal is the first triangle of each.
+        let ahead = from(6.5, DVec3::Z).expect("a wall is ahead");
+        assert_eq!((ahead.point.z, ahead.triangle), (7.0, 12));
+        let behind = from(6.5, -2.0 * DVec3::Z).expect("a wall is behind");
+        assert_eq!((behind.point.z, behind.triangle), (6.0, 10));
+        // From a wall the next one, not itself. Beyond the last one there is none, and none beside.
+        assert_eq!(from(7.0, DVec3::Z).map(|hit| hit.point.z), Some(8.0));
+        assert!(from(50.5, DVec3::Z).is_none());
+        assert!(from(0.0, DVec3::X).is_none());
+    }
 }

@@ -26,9 +26,13 @@ pub(crate) enum Law {
     /// A pane so thin that light goes straight on.
     Pane,
     /// A ball of glass: refracted where light enters, and again where it leaves.
-    Glass { index: f64 },
+    Glass {
+        index: f64,
+    },
     /// The same with an index for red, green and blue, and with Fresnel's share reflected at the first surface.
-    Dispersion { indices: [f64; 3] },
+    Dispersion {
+        indices: [f64; 3],
+    },
 }
 
 /// One way on.
@@ -100,13 +104,18 @@ impl Law {
         match self {
             Self::Mirror => vec![straight(reflect(ray.direction, met.normal), DVec3::ONE)],
             Self::Pane => vec![straight(ray.direction, DVec3::ONE)],
-            Self::Glass { index } => glass(body, ray, met, index, DVec3::ONE).into_iter().collect(),
+            Self::Glass { index } => glass(body, ray, met, index, DVec3::ONE)
+                .into_iter()
+                .collect(),
             Self::Dispersion { indices } => {
                 let shine = fresnel(-ray.direction.dot(met.normal), indices[1]);
                 let colors = [DVec3::X, DVec3::Y, DVec3::Z];
-                let through = indices.into_iter().zip(colors).filter_map(|(index, color)| {
-                    glass(body, ray, met, index, (1.0 - shine) * color)
-                });
+                let through = indices
+                    .into_iter()
+                    .zip(colors)
+                    .filter_map(|(index, color)| {
+                        glass(body, ray, met, index, (1.0 - shine) * color)
+                    });
                 let off = straight(reflect(ray.direction, met.normal), DVec3::splat(shine));
                 through.chain([off]).collect()
             }
@@ -127,5 +136,9 @@ fn glass(body: &Body<'_>, ray: &Ray, met: &Met, index: f64, weight: DVec3) -> Op
         let inward = (*center - last.origin).normalize();
         last.direction = refract(first, inward, index)?;
     }
-    Some(Path { first, last, weight })
+    Some(Path {
+        first,
+        last,
+        weight,
+    })
 }

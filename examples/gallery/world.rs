@@ -42,9 +42,10 @@ impl<'a> World<'a> {
             for triangle in mesh.indices().chunks_exact(3) {
                 let vertices = [triangle[0], triangle[1], triangle[2]].map(|index| index as usize);
                 triangles.push((number, vertices));
-                corners.push(vertices.map(|vertex| {
-                    world.transform_point3(mesh.positions()[vertex].as_dvec3())
-                }));
+                corners.push(
+                    vertices
+                        .map(|vertex| world.transform_point3(mesh.positions()[vertex].as_dvec3())),
+                );
             }
         }
         Self {
