@@ -1,4 +1,5 @@
 mod broken;
+mod camera;
 mod documented;
 mod history;
 mod meanings;
