@@ -92,8 +92,8 @@ pub(super) struct Camera {
     view: Mat4,
     /// What the camera looks at and turns about; where the file gives a view matrix, the origin.
     turns_about: Vec3,
-    /// Comes before the view.
-    turned: Mat4,
+    /// How far it is turned, in degrees.
+    turned: f32,
     projection: Projection,
 }
 
@@ -111,7 +111,7 @@ impl Default for Camera {
         Self {
             view: Mat4::IDENTITY,
             turns_about: Vec3::ZERO,
-            turned: Mat4::IDENTITY,
+            turned: 0.0,
             projection: Projection::Matrix(Mat4::IDENTITY),
         }
     }
@@ -158,7 +158,7 @@ impl Camera {
         Self {
             view,
             turns_about,
-            turned: Mat4::IDENTITY,
+            turned: 0.0,
             projection,
         }
     }
@@ -188,10 +188,7 @@ impl Camera {
 
     /// Turns the camera from where the scene file has it: see [`Scene::turn_camera`](super::Scene::turn_camera).
     pub(super) fn turn(&mut self, degrees: f32) {
-        // The camera goes one way around the world if the world goes the other way before it.
-        let around = Mat4::from_rotation_y(-degrees.to_radians());
-        let to = Mat4::from_translation(self.turns_about);
-        self.turned = to * around * Mat4::from_translation(-self.turns_about);
+        self.turned = degrees;
     }
 
     /// View and projection for a picture of this width over height.
@@ -200,7 +197,14 @@ impl Camera {
             Projection::Perspective { fov, near, far } => perspective(fov, aspect, near, far),
             Projection::Matrix(matrix) => matrix,
         };
-        (self.view * self.turned, projection)
+        if self.turned == 0.0 {
+            return (self.view, projection);
+        }
+        // The camera goes one way around the world if the world goes the other way before it.
+        let around = Mat4::from_rotation_y(-self.turned.to_radians());
+        let to = Mat4::from_translation(self.turns_about);
+        let turned = to * around * Mat4::from_translation(-self.turns_about);
+        (self.view * turned, projection)
     }
 }
 
