@@ -19,6 +19,7 @@ mod explain;
 mod files;
 mod filters;
 mod fmt;
+mod frames;
 mod fuzz_match;
 mod generate;
 mod given;

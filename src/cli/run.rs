@@ -1,6 +1,7 @@
 //! `run`: a scene to a picture, or to pictures of registers.
 
 use super::computing::Several;
+use super::frames::{Motion, animated};
 use super::{Failure, Outcome, dialect, files, scene};
 use clap::ValueEnum;
 use image::RgbaImage;
@@ -36,7 +37,9 @@ Examples:
   texcrd run scene.toml -o sheet.png --show r2@12 --show r2@14 --signed
   texcrd run scene.toml -o r2.png --show r2.r@12 --sign --bar
   texcrd run scene.toml -o gpu.png --show r2@12 --on gpu
-  texcrd run scene.toml -o models.png --model float,gf3,r200")]
+  texcrd run scene.toml -o models.png --model float,gf3,r200
+  texcrd run asm/reflection/per_pixel.toml -o ball.png --frames 60
+  texcrd run asm/stained_glass/figure5.toml -o window.png --size 320x240 --frames 24 --swing 30")]
 pub(super) struct Arguments {
     /// The scene file.
     #[arg(value_name = "SCENE")]
@@ -93,6 +96,8 @@ pub(super) struct Arguments {
     /// Draw none on a contact sheet.
     #[arg(long, requires = "show", conflicts_with = "bar")]
     no_bar: bool,
+    #[command(flatten)]
+    motion: Motion,
     /// Whose rules the listings are judged by: d3d8, d3d9 or lenient.
     #[arg(long, value_parser = dialect, default_value = "d3d8")]
     dialect: Dialect,
@@ -145,6 +150,12 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     files::can_be_written(&arguments.output)?;
     let models = arguments.computing.models();
     let several = models.len() > 1;
+    if let Some(count) = arguments.motion.frames {
+        let [model] = models[..] else {
+            return Err(Failure::Io("--frames: with one --model only".into()));
+        };
+        return animate(arguments, model, count);
+    }
     let mut sheet = Sheet::default();
     let mut dressing = Dressing {
         captions: several,
@@ -188,6 +199,23 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
             .map_err(|error| Failure::Io(format!("the sheet: {error}")))?,
     };
     scene::write_png(&arguments.output, &picture)
+}
+
+/// Draws the scene again and again with a moving camera, into one file.
+fn animate(arguments: &Arguments, model: Model, count: u32) -> Outcome {
+    let options = arguments.computing.loading(model, arguments.dialect);
+    let mut scene = scene::load(&arguments.scene, &options)?;
+    let size = arguments.size.unwrap_or(scene.size());
+    let file = animated(size, count, |number| {
+        scene.turn_camera(arguments.motion.angle(number, count));
+        let mut frame = Sheet {
+            size,
+            ..Sheet::default()
+        };
+        frame.draw(arguments, &scene, Vec::new())?;
+        Ok(frame.pictures.pop().unwrap_or_default())
+    })?;
+    files::write(&arguments.output, &file)
 }
 
 /// Pictures and what is said of each.

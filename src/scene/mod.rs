@@ -118,6 +118,12 @@ impl Scene {
         self.size
     }
 
+    /// Turns the camera of the picture by so many degrees from where the scene file has it: around the vertical line, that of
+    /// +Y, through the point that it looks at, clockwise as seen from above. The cameras of render targets stay.
+    pub fn turn_camera(&mut self, degrees: f32) {
+        self.camera.turn(degrees);
+    }
+
     /// The textures, by the numbers that [`PreparedStage::texture`] holds.
     pub fn textures(&self) -> &[TextureEntry] {
         &self.textures

@@ -37,6 +37,10 @@ pub struct Pass<'a> {
     pub size: [u32; 2],
     /// Its format, and what it holds before the first draw.
     pub surface: Surface,
+    /// From the world to its camera, for column vectors: `view * position`.
+    pub view: Mat4,
+    /// From its camera to clip space, for column vectors.
+    pub projection: Mat4,
     /// The draws in order.
     pub draws: Vec<PreparedDraw<'a>>,
 }
@@ -50,6 +54,8 @@ pub struct PreparedDraw<'a> {
     pub number: usize,
     /// What feeds the vertex shader.
     pub mesh: &'a Mesh,
+    /// From the mesh to the world, for column vectors. The shaders know it only from constants that the scene file sets.
+    pub world: Mat4,
     /// Which attribute feeds which register.
     pub declaration: &'a Declaration,
     /// How vertices make up primitives.
@@ -137,15 +143,20 @@ impl Scene {
                     },
                     size: target.size,
                     surface: target.surface,
+                    view: view.0,
+                    projection: view.1,
                     draws: self.prepare(&target.draws, view, target.size, &mut left),
                 });
             }
         }
+        let view = self.picture_matrices(size);
         passes.push(Pass {
             output: Output::Picture,
             size,
             surface: self.surface,
-            draws: self.prepare(&self.picture, self.picture_matrices(size), size, &mut left),
+            view: view.0,
+            projection: view.1,
+            draws: self.prepare(&self.picture, view, size, &mut left),
         });
         passes
     }
@@ -178,6 +189,7 @@ impl Scene {
                     name: &draw.name,
                     number,
                     mesh: self.meshes.get(draw.mesh)?,
+                    world: draw.world,
                     declaration: &draw.declaration,
                     topology: draw.topology,
                     own_indices: draw.indices.as_ref().map(|at| at.value.as_slice()),

@@ -90,6 +90,10 @@ pub(super) fn transform(node: Node<'_>, problems: &mut Problems) -> Option<Mat4>
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Camera {
     view: Mat4,
+    /// What the camera looks at and turns about; where the file gives a view matrix, the origin.
+    turns_about: Vec3,
+    /// How far it is turned, in degrees.
+    turned: f32,
     projection: Projection,
 }
 
@@ -106,6 +110,8 @@ impl Default for Camera {
     fn default() -> Self {
         Self {
             view: Mat4::IDENTITY,
+            turns_about: Vec3::ZERO,
+            turned: 0.0,
             projection: Projection::Matrix(Mat4::IDENTITY),
         }
     }
@@ -114,7 +120,7 @@ impl Default for Camera {
 impl Camera {
     /// Reads `[camera]`.
     pub(super) fn read(mut section: Section<'_>, problems: &mut Problems) -> Self {
-        let view = match section.node("view") {
+        let (view, turns_about) = match section.node("view") {
             Some(node) => {
                 let from = ["position", "look_at", "up"];
                 if let Some(key) = from.into_iter().find(|key| section.has(key)) {
@@ -124,7 +130,8 @@ impl Camera {
                 for key in from {
                     section.node(key);
                 }
-                matrix(node, problems).unwrap_or(Mat4::IDENTITY)
+                let view = matrix(node, problems).unwrap_or(Mat4::IDENTITY);
+                (view, Vec3::ZERO)
             }
             None => Self::look(&mut section, problems),
         };
@@ -148,10 +155,16 @@ impl Camera {
             }
         };
         section.finish(problems);
-        Self { view, projection }
+        Self {
+            view,
+            turns_about,
+            turned: 0.0,
+            projection,
+        }
     }
 
-    fn look(section: &mut Section<'_>, problems: &mut Problems) -> Mat4 {
+    /// The view, and the point that is looked at.
+    fn look(section: &mut Section<'_>, problems: &mut Problems) -> (Mat4, Vec3) {
         let position: [f32; 3] = section.array_or("position", [0.0; 3], problems);
         let position = Vec3::from_array(position);
         let look_at = section.array::<f32, 3>("look_at", problems);
@@ -167,9 +180,15 @@ impl Camera {
         if forward == Vec3::ZERO || right == Vec3::ZERO {
             let message = "the camera must look at another point than its position, and `up` must not lie on its line of sight";
             problems.error(&rules::VALUE, place, message);
-            return Mat4::IDENTITY;
+            return (Mat4::IDENTITY, target);
         }
-        view(position, right, forward.cross(right), forward)
+        let view = view(position, right, forward.cross(right), forward);
+        (view, target)
+    }
+
+    /// Turns the camera from where the scene file has it: see [`Scene::turn_camera`](super::Scene::turn_camera).
+    pub(super) fn turn(&mut self, degrees: f32) {
+        self.turned = degrees;
     }
 
     /// View and projection for a picture of this width over height.
@@ -178,7 +197,14 @@ impl Camera {
             Projection::Perspective { fov, near, far } => perspective(fov, aspect, near, far),
             Projection::Matrix(matrix) => matrix,
         };
-        (self.view, projection)
+        if self.turned == 0.0 {
+            return (self.view, projection);
+        }
+        // The camera goes one way around the world if the world goes the other way before it.
+        let around = Mat4::from_rotation_y(-self.turned.to_radians());
+        let to = Mat4::from_translation(self.turns_about);
+        let turned = to * around * Mat4::from_translation(-self.turns_about);
+        (self.view * turned, projection)
     }
 }
 

@@ -1,4 +1,5 @@
 mod broken;
+mod camera;
 mod definitions;
 mod documented;
 mod history;
