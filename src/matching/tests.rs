@@ -3,6 +3,7 @@
 use super::*;
 use crate::case::Case;
 use crate::generate::Precision;
+use crate::policy::Policy;
 use crate::scene::{LoadOptions, Resolver};
 
 struct Nothing;
@@ -29,11 +30,24 @@ fn plan(count: u64) -> Plan {
 /// textures, bump stages and projections are in play.
 #[test]
 fn mismatches_become_cases_that_the_interpreter_passes() {
-    let textures = Textures::new().unwrap();
     let (mut checked, mut sampled) = (0, 0);
     for number in 0..210 {
-        let (version, seed) = plan(210).shader(number).unwrap();
-        let subject = Subject::new(plan(210).options(version), seed, &textures);
+        // Models and policies in turns: a case names those that are not the usual ones.
+        let model = Model::all().nth(number as usize % 3).unwrap();
+        let mut policies = Policies::default();
+        for policy in Policy::all() {
+            let values = policy.values();
+            let value = values[(number / 3) as usize % values.len()].name;
+            policies.set(&format!("{}={value}", policy.name)).unwrap();
+        }
+        let plan = Plan {
+            model,
+            policies,
+            ..plan(210)
+        };
+        let textures = Textures::with_model(model).unwrap();
+        let (version, seed) = plan.shader(number).unwrap();
+        let subject = Subject::new(plan.options(version), seed, &textures);
         let mismatch = Mismatch {
             number,
             seed,
