@@ -25,6 +25,8 @@ pub enum Field {
     Border(u8),
     /// `lod_bias#`: `D3DTSS_MIPMAPLODBIAS` of a stage.
     LodBias(u8),
+    /// `levels#`: the largest level that is read of a stage, `D3DTSS_MAXMIPLEVEL` or the last one, and the last one.
+    Levels(u8),
     /// `alpha_reference`: `D3DRS_ALPHAREF` as a number from 0 to 255.
     AlphaReference,
     /// `fog_color`: `D3DRS_FOGCOLOR`, each channel 0 to 1.
@@ -65,6 +67,7 @@ impl Field {
             Self::Luminance(stage) => format!("luminance{stage}"),
             Self::Border(stage) => format!("border{stage}"),
             Self::LodBias(stage) => format!("lod_bias{stage}"),
+            Self::Levels(stage) => format!("levels{stage}"),
             Self::AlphaReference => "alpha_reference".into(),
             Self::FogColor => "fog_color".into(),
             Self::FogDensity => "fog_density".into(),
@@ -86,6 +89,7 @@ impl Field {
             Self::Luminance(_) => "D3DTSS_BUMPENVLSCALE, D3DTSS_BUMPENVLOFFSET",
             Self::Border(_) => "D3DTSS_BORDERCOLOR",
             Self::LodBias(_) => "D3DTSS_MIPMAPLODBIAS",
+            Self::Levels(_) => "D3DTSS_MAXMIPLEVEL, number of the last level",
             Self::AlphaReference => "D3DRS_ALPHAREF, 0 to 255",
             Self::FogColor => "D3DRS_FOGCOLOR",
             Self::FogDensity => "D3DRS_FOGDENSITY",
@@ -119,7 +123,7 @@ impl Block {
             Field::ClipPlanes => vectors(self.clip_planes),
             Field::Bump(_) | Field::Border(_) => ("vec4f".into(), 16, 16),
             Field::FogColor => ("vec3f".into(), 16, 12),
-            Field::Viewport | Field::Luminance(_) => ("vec2f".into(), 8, 8),
+            Field::Viewport | Field::Luminance(_) | Field::Levels(_) => ("vec2f".into(), 8, 8),
             Field::PointSize
             | Field::PointMin
             | Field::PointMax
