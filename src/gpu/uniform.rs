@@ -28,13 +28,17 @@ pub struct StageUniforms {
     pub border: [f32; 4],
     /// `D3DTSS_MIPMAPLODBIAS`.
     pub lod_bias: f32,
+    /// The numbers of the largest and of the smallest level that may be read.
+    pub levels: [f32; 2],
 }
 
 impl StageUniforms {
     /// Those of a stage with this texture, sampled like this.
     pub fn new(texture: Option<&Texture>, sampler: &Sampler, bump: BumpState) -> Self {
         let border = sampler.border;
+        let last = texture.map_or(0, |texture| texture.level_count() - 1);
         Self {
+            levels: [sampler.max_mip_level.min(last), last].map(|level| level as f32),
             bump,
             border: texture.map_or(border, |texture| texture.format().with_fill(border)),
             lod_bias: sampler.lod_bias,
@@ -93,6 +97,7 @@ impl Uniforms<'_> {
             }
             Field::Border(number) => stage(number).border.to_vec(),
             Field::LodBias(number) => vec![stage(number).lod_bias],
+            Field::Levels(number) => stage(number).levels.to_vec(),
             Field::AlphaReference => vec![f32::from(self.state.alpha_test.reference)],
             Field::DepthMapping => self.state.depth_mapping().to_vec(),
             Field::FogColor => fog.color.map(|channel| channel.clamp(0.0, 1.0)).to_vec(),

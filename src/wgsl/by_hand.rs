@@ -27,7 +27,13 @@ impl StageOptions {
             Some(TextureKind::Texture2D) => 2,
             Some(TextureKind::Volume) => 3,
         };
-        let unknown = |mode| matches!(mode, AddressMode::Border | AddressMode::MirrorOnce);
+        // Mirrored coordinates, as adapters make them, lie on the other side of an edge between two texels.
+        let points = !(self.mag.is_linear() && self.min.is_linear());
+        let unknown = |mode| match mode {
+            AddressMode::Border | AddressMode::MirrorOnce => true,
+            AddressMode::Mirror => points,
+            AddressMode::Wrap | AddressMode::Clamp => false,
+        };
         let blends = self.mag.is_linear() || self.min.is_linear() || self.mip == MipFilter::Linear;
         // A sampler of WebGPU looks at λ behind the limits of the levels, and leaves open where halves go to.
         let other_limits = self.max_mip_level > 0 && self.mag.is_linear() != self.min.is_linear();
@@ -104,8 +110,8 @@ impl StageOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Argument {
     Bias,
-    /// The number of the largest level that is read.
-    Largest,
+    /// The largest and the smallest level that are read.
+    Levels,
     Border,
 }
 
@@ -114,7 +120,7 @@ impl ByHand {
     pub(super) fn takes(self) -> impl Iterator<Item = Argument> {
         [
             (self.bias, Argument::Bias),
-            (self.mag.mip != MipFilter::None, Argument::Largest),
+            (self.mag.mip != MipFilter::None, Argument::Levels),
             (self.mag.texels.has_border(), Argument::Border),
         ]
         .into_iter()
@@ -180,7 +186,7 @@ impl ByHand {
         let parameters: String = (self.takes())
             .map(|argument| match argument {
                 Argument::Bias => ", bias: f32",
-                Argument::Largest => ", largest: i32",
+                Argument::Levels => ", levels: vec2f",
                 Argument::Border => ", border: vec4f",
             })
             .collect();
@@ -201,7 +207,7 @@ impl ByHand {
             let border = texels.border(", border");
             let value = match (self.level_zero, self.mag.mip) {
                 (true, MipFilter::Point | MipFilter::Linear) => format!(
-                    "{}(t, at{}, min(largest, i32(textureNumLevels(t)) - 1){border})",
+                    "{}(t, at{}, i32(levels.x){border})",
                     self.mag.within.name(texels),
                     texels.face(", face"),
                 ),

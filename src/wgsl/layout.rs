@@ -25,6 +25,8 @@ pub enum Field {
     Border(u8),
     /// `lod_bias#`: `D3DTSS_MIPMAPLODBIAS` of a stage.
     LodBias(u8),
+    /// `levels#`: the largest level that is read of a stage, `D3DTSS_MAXMIPLEVEL` or the last one, and the last one.
+    Levels(u8),
     /// `alpha_reference`: `D3DRS_ALPHAREF` as a number from 0 to 255.
     AlphaReference,
     /// `depth_mapping`: what the depth of the position is multiplied by, and what is added:
@@ -68,6 +70,7 @@ impl Field {
             Self::Luminance(stage) => format!("luminance{stage}"),
             Self::Border(stage) => format!("border{stage}"),
             Self::LodBias(stage) => format!("lod_bias{stage}"),
+            Self::Levels(stage) => format!("levels{stage}"),
             Self::AlphaReference => "alpha_reference".into(),
             Self::DepthMapping => "depth_mapping".into(),
             Self::FogColor => "fog_color".into(),
@@ -90,6 +93,7 @@ impl Field {
             Self::Luminance(_) => "D3DTSS_BUMPENVLSCALE, D3DTSS_BUMPENVLOFFSET",
             Self::Border(_) => "D3DTSS_BORDERCOLOR",
             Self::LodBias(_) => "D3DTSS_MIPMAPLODBIAS",
+            Self::Levels(_) => "D3DTSS_MAXMIPLEVEL, number of the last level",
             Self::AlphaReference => "D3DRS_ALPHAREF, 0 to 255",
             Self::DepthMapping => "scale and offset: MinZ, MaxZ, D3DRS_ZBIAS",
             Self::FogColor => "D3DRS_FOGCOLOR",
@@ -124,7 +128,9 @@ impl Block {
             Field::ClipPlanes => vectors(self.clip_planes),
             Field::Bump(_) | Field::Border(_) => ("vec4f".into(), 16, 16),
             Field::FogColor => ("vec3f".into(), 16, 12),
-            Field::Viewport | Field::Luminance(_) | Field::DepthMapping => ("vec2f".into(), 8, 8),
+            Field::Viewport | Field::Luminance(_) | Field::Levels(_) | Field::DepthMapping => {
+                ("vec2f".into(), 8, 8)
+            }
             Field::PointSize
             | Field::PointMin
             | Field::PointMax

@@ -30,7 +30,7 @@
 //! - *Tests.* `texkill`, user clip planes and the alpha test come behind all sampling, in one `discard`. Stencil, depth
 //!   test, blending and colour mask are states of the pipeline.
 //! - *Cubes* are bound as six 2D layers, filtered each for itself as Direct3D 8 did, or seamless as `texture_cube`.
-//! - *Samples texel by texel.* What a sampler of WebGPU cannot do (`border`, `mirror_once`, anisotropic filters that are the
+//! - *Samples texel by texel.* What a sampler of WebGPU cannot do (`border`, `mirror_once`, `mirror` exactly, anisotropic filters that are the
 //!   same everywhere, weights of 8 bits) the shader does itself with `textureLoad`, with everything that is known of the
 //!   stage baked in: [`StageOptions`]. Such a stage has no sampler.
 //! - *Points* are strips of two triangles: buffers step per instance, four vertices an instance, culling off.

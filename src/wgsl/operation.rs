@@ -290,14 +290,12 @@ impl Body<'_> {
 
     /// The call that reads it texel by texel.
     fn texel_by_hand(&mut self, stage: u8, sample: ByHand, at: String) -> Expression {
-        let state = self.options.stages[usize::from(stage) & 7];
         let function = self.helpers.call(Helper::ByHand(sample));
         let mut arguments = vec![format!("texture{stage}"), at];
         for argument in sample.takes() {
             arguments.push(match argument {
                 Argument::Bias => self.uniform(Field::LodBias(stage)),
-                // No texture has more levels.
-                Argument::Largest => state.max_mip_level.min(31).to_string(),
+                Argument::Levels => self.uniform(Field::Levels(stage)),
                 Argument::Border => self.uniform(Field::Border(stage)),
             });
         }

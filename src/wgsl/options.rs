@@ -160,7 +160,7 @@ impl Observed {
 ///
 /// A sampler of WebGPU reads the texture where it can do what Direct3D 8 does; then address modes, filters and levels are
 /// its own business, and nothing of them is baked in. Else there is no sampler, and the shader puts samples together itself,
-/// texel by texel: for `border` and `mirror_once`, for weights of 8 bits, for anisotropic filters, where λ is to tell
+/// texel by texel: for `border` and `mirror_once`, for `mirror` under a point filter, for weights of 8 bits, for anisotropic filters, where λ is to tell
 /// magnified from minified before the largest level limits it, and where a bias may put λ in the middle between two levels,
 /// which is to go to the smaller one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,7 +178,7 @@ pub struct StageOptions {
     pub min: Filter,
     /// How levels are chosen.
     pub mip: MipFilter,
-    /// `D3DTSS_MAXMIPLEVEL`.
+    /// `D3DTSS_MAXMIPLEVEL`. Of a stage without a sampler the uniform block has the number.
     pub max_mip_level: u32,
     /// `D3DTSS_MAXANISOTROPY`, 1 to 16.
     pub max_anisotropy: u32,

@@ -367,7 +367,7 @@ impl Filtered {
                         false => "level - f32(first)",
                     },
                     in_level("first"),
-                    in_level("min(first + 1, last)"),
+                    in_level("min(first + 1, i32(levels.y))"),
                 ),
             ),
             MipFilter::Point | MipFilter::None => (
@@ -376,10 +376,9 @@ impl Filtered {
             ),
         };
         format!(
-            "// {about}, `largest` being the largest level that is read.\n\
-             fn {}({}, at: vec{}f{}, lambda: f32, largest: i32{}) -> vec4f {{\n    \
-                 let last = i32(textureNumLevels(t)) - 1;\n    \
-                 let level = clamp(lambda, f32(min(largest, last)), f32(last));\n{rest}}}\n",
+            "// {about}; `levels` are the largest and the smallest that are read.\n\
+             fn {}({}, at: vec{}f{}, lambda: f32, levels: vec2f{}) -> vec4f {{\n    \
+                 let level = clamp(lambda, levels.x, levels.y);\n{rest}}}\n",
             self.name(),
             texels.texture(),
             texels.width(),
@@ -397,7 +396,7 @@ impl Filtered {
         let border = self.texels.border(", border");
         match self.mip {
             MipFilter::None => format!("{}(t, {at}{face}, 0{border})", self.name()),
-            _ => format!("{}(t, {at}{face}, {lambda}, largest{border})", self.name()),
+            _ => format!("{}(t, {at}{face}, {lambda}, levels{border})", self.name()),
         }
     }
 
