@@ -198,7 +198,7 @@ impl Probe {
                 // What stands for infinity is the same everywhere.
                 let endless = value.abs() == f64::from(context.of_zero.value()) && error == 0.0;
                 // Written so that NaN is refused.
-                if !(value.abs() <= options.largest_value && near) && !endless {
+                if !(endless || value.abs() <= options.largest_value && near) {
                     return None;
                 }
                 errors[lane][c] = error;

@@ -20,7 +20,7 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Environment, Machine, bind_constants};
-use texcrd::generate::{self, Generated, INVOCATIONS, Precision, Random, Textures, Weights};
+use texcrd::generate::{self, Generated, INVOCATIONS, Random, Textures, Weights};
 use texcrd::gpu::wgpu;
 use texcrd::gpu::{Batch, Device, GpuError, Program, Results, StageUniforms, Uniforms};
 use texcrd::isa::{Opcode, ShaderKind, Version};
