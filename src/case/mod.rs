@@ -8,9 +8,10 @@
 //! number was born is told by the trace of the CPU.
 //!
 //! Files, in the order of the data: `json` (JSON as the tree that TOML is read into), `read`, `registers` and `texture`
-//! (the tree to a [`Case`]), `quantity` (what can be expected), `run` (the CPU), `record` (the same, step by step), `gpu`
-//! and `slack` (the GPU, and how far it may be off), `judge`.
+//! (the tree to a [`Case`]), `computing` (its model and policies), `quantity` (what can be expected), `run` (the CPU), `record`
+//! (the same, step by step), `gpu` and `slack` (the GPU, and how far it may be off), `judge`.
 
+mod computing;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod json;

@@ -2,6 +2,7 @@
 
 use toml::de::DeValue;
 
+use super::computing::computing;
 use super::registers::{constants, expectation, register};
 use super::texture::bound;
 use super::{Expectation, Invocation, Quantity, Stage, json};
@@ -10,7 +11,6 @@ use crate::exec::STAGES;
 use crate::isa::register::VERTEX_CONSTANTS;
 use crate::isa::{RegisterFile, Version};
 use crate::kernel::{Options, Projection};
-use crate::policy::Policy;
 use crate::raster::{RenderState, Surface, Vertex};
 use crate::scene::draw::numbered;
 use crate::scene::error::{Problems, rules};
@@ -226,29 +226,6 @@ fn case(mut root: Section<'_>, files: &mut Files<'_>, problems: &mut Problems) -
 fn remarks(s: &mut Section<'_>) {
     for key in ["description", "comment", "note", "source"] {
         s.node(key);
-    }
-}
-
-/// Reads `model` and `policies`: what a case says of them holds, whatever else it is loaded with.
-fn computing(s: &mut Section<'_>, files: &mut Files<'_>, problems: &mut Problems) {
-    let options = files.options_mut();
-    options.model = s.named("model", options.model, problems);
-    let Some(mut table) = s.table("policies", problems) else {
-        return;
-    };
-    for node in table.rest() {
-        let (key, span) = (node.key.clone(), node.key_span);
-        let Some(value) = node.read::<String>(problems) else {
-            continue;
-        };
-        if let Err(wrong) = options.policies.set(&format!("{key}={}", value.value)) {
-            let known = Policy::named(&key).is_some();
-            let (rule, span) = match known {
-                true => (&rules::VALUE, value.span),
-                false => (&rules::KEY, span),
-            };
-            problems.error(rule, span, wrong.to_string());
-        }
     }
 }
 

@@ -300,7 +300,6 @@ fn lowering(model: Model, policies: Policies, stages: &[Stage; STAGES]) -> kerne
         projection: std::array::from_fn(|i| stages[i].projection),
         model,
         policies,
-        ..kernel::Options::default()
     }
 }
 

@@ -356,7 +356,7 @@ fn push_account(out: &mut String, account: &Account) {
 }
 
 fn list(values: &[f32]) -> String {
-    let texts: Vec<String> = values.iter().map(f32::to_string).collect();
+    let texts: Vec<String> = values.iter().map(|x| debug::number_text(*x)).collect();
     texts.join(", ")
 }
 

@@ -2,12 +2,13 @@
 
 use super::{merge, sample, tell};
 use crate::debug::expression::number_text;
-use crate::debug::moment::{Event, Moment, Read, Target};
+use crate::debug::moment::{Event, Moment, Read, Sample, Target};
 use crate::debug::run::Run;
 use crate::isa::{Version, WriteMask};
 use crate::kernel::{Op, Place, Slot, Step};
 use crate::policy::Model;
 use crate::semantics::BumpState;
+use crate::texture::TextureKind;
 
 /// What went into one moment of a run, and what came of it, for the pixel that is looked at.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,12 +56,12 @@ pub fn account(run: &Run<'_>, number: usize) -> Account {
                 account.computed = Some(components(computed, step.mask));
             }
             if let Some(sampled) = sampled {
-                let lines = sample::lines(run, sampled, tell::Detail::Full);
-                let lines = lines.to_string();
-                let lines = lines
-                    .lines()
-                    .map(|line| (String::new(), line.trim().to_owned()));
-                account.notes.extend(lines);
+                let lines = sample::lines(run, sampled, tell::Detail::Full).to_string();
+                let mut lines = lines.lines().map(|line| line.trim().to_owned());
+                let first = lines.next();
+                let all = first.into_iter().chain(sampler(run, sampled)).chain(lines);
+                let all = all.map(|line| (String::new(), line));
+                account.notes.extend(all);
             }
         }
         Event::Merge(stage) => {
@@ -136,6 +137,29 @@ fn read_of(run: &Run<'_>, read: &Read) -> Option<(String, Vec<f32>)> {
     let text = format!("{}{place}{}{components}{relative}", row.prefix, row.suffix);
     let values = read.values[run.lane & 3];
     Some((text, self::components(values, shown)))
+}
+
+/// How a texture is sampled; nothing where there is none.
+fn sampler(run: &Run<'_>, sampled: &Sample) -> Option<String> {
+    let stage = run.environment.stages.get(sampled.stage)?;
+    let (texture, sampler) = (stage.texture?, stage.sampler);
+    let filter = match sampled.detail[run.lane & 3].lambda() > 0.0 {
+        true => format!("{} filter, {} levels", sampler.min, sampler.mip),
+        false => format!("{} filter", sampler.mag),
+    };
+    let axes = match texture.kind() {
+        TextureKind::Texture2D => 2,
+        TextureKind::Volume => 3,
+        TextureKind::Cube => 0,
+    };
+    let mut modes: Vec<String> = (sampler.address.iter().take(axes))
+        .map(ToString::to_string)
+        .collect();
+    modes.dedup();
+    Some(match modes.is_empty() {
+        true => filter,
+        false => format!("{filter}, {}", modes.join(" and ")),
+    })
 }
 
 /// What a step does where its instruction does not say it, and the states that go in.

@@ -210,17 +210,14 @@ fn largest(format: Format, signed: Signed) -> Option<[f32; 4]> {
 /// Whether a model shows how the signed codes of a format are read: 16 bits are more than the Radeon has.
 fn shows(model: Model, format: Format) -> bool {
     let ends = [Signed::Symmetric, Signed::Lopsided].map(|signed| largest(format, signed));
-    let apart = match ends {
-        [Some(a), Some(b)] => a.into_iter().zip(b).any(|(a, b)| {
-            a - b
-                > model
-                    .steps()
-                    .filter(|_| model == Model::R200)
-                    .map_or(0.0, |n| 0.5 / n)
-        }),
-        _ => false,
+    let least = match (model, model.steps()) {
+        (Model::R200, Some(steps)) => 0.5 / steps,
+        _ => 0.0,
     };
-    apart
+    match ends {
+        [Some(a), Some(b)] => a.into_iter().zip(b).any(|(a, b)| a - b > least),
+        _ => false,
+    }
 }
 
 /// A texture of the same codes that stand for other numbers.
