@@ -5,16 +5,20 @@
 //! `texm3x3pad`, `texm3x3tex`) has become dot products and one sample, scalar instructions name the one component
 //! that they read, registers are numbered slots of one file. Every step keeps the instruction that it came from.
 //!
-//! What a step computes is in [`crate::semantics`]; [`crate::exec`] runs kernels, and the translators write them out.
+//! What a step computes is in [`crate::semantics`]; [`crate::exec`] runs kernels, and the translators write them out. A
+//! [`Plan`] is the same for many invocations at a time.
 
 mod error;
 mod lower;
+mod plan;
 mod slot;
 #[cfg(test)]
 mod tests;
 mod texture_ops;
 
 pub use error::LowerError;
+pub use plan::Plan;
+pub(crate) use plan::{NO_ROW, Row, RowFinish, RowOp, RowStep, UniformValue};
 pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use slot::{SLOT_COUNT, Slot};
 

@@ -1,11 +1,13 @@
 //! Kernels in their places around the rasterizer: vertices from a vertex shader, pixels from a pixel shader.
 
 use super::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, Vertex};
-use crate::exec::{Environment, Lanes, Machine, Observer, Trace};
-use crate::kernel::{Kernel, Slot};
+use crate::exec::{Batch, Environment, Lanes, Machine, Observer, Trace};
+use crate::kernel::{Kernel, Plan, Slot};
 use crate::semantics;
+use crate::simd::Simd;
 use glam::Vec4;
 use std::cell::RefCell;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How many input registers a vertex shader has.
 const INPUTS: usize = 16;
@@ -15,9 +17,10 @@ const SETS: usize = 8;
 /// Runs a vertex shader over `count` vertices.
 ///
 /// `fetch(vertex, register)` is the content of input register `v#`, 0 to 15, already expanded to four components; it
-/// is asked only for registers that the shader reads.
+/// is asked only for registers that the shader reads. `plan` is that of `kernel`.
 pub fn shade_vertices(
     kernel: &Kernel,
+    plan: &Plan,
     environment: &Environment<'_>,
     count: usize,
     fetch: impl Fn(usize, usize) -> [f32; 4] + Sync,
@@ -26,18 +29,33 @@ pub fn shade_vertices(
         .filter_map(|i| Some((i, Slot::input(i)?)))
         .filter(|(_, slot)| !kernel.read(*slot).is_empty())
         .collect();
+    let simd = Simd::chosen();
+    let shader = number();
     let batch = |number: usize| -> Vec<Vertex> {
         let first = number * LANES;
         let live = count.saturating_sub(first).min(LANES);
-        MACHINE.with_borrow_mut(|machine| {
-            for (register, slot) in &inputs {
+        ROWS.with_borrow_mut(|rows| {
+            let batch = rows.of(shader, simd, plan, environment);
+            let mut fetched = [[[0.0; LANES]; 4]; INPUTS];
+            for (register, _) in &inputs {
                 for lane in 0..live {
-                    machine.set_lane(*slot, lane, fetch(first + lane, *register));
+                    let value = fetch(first + lane, *register);
+                    for (lanes, number) in fetched[*register].iter_mut().zip(value) {
+                        lanes[lane] = number;
+                    }
                 }
             }
-            machine.run(kernel, environment);
+            batch.input(plan, |slot, component| {
+                fetched.get(slot.input_index()?)?.get(component)
+            });
+            batch.run(simd, plan, environment, live);
             (0..live)
-                .map(|lane| vertex_outputs(kernel, |slot| machine.lane(slot, lane)))
+                .map(|lane| {
+                    vertex_outputs(kernel, |slot| {
+                        let rows = batch.output(plan, slot);
+                        rows.map(|row| row.map_or(0.0, |row| row[lane]))
+                    })
+                })
                 .collect()
         })
     };
@@ -75,6 +93,39 @@ pub fn vertex_outputs(kernel: &Kernel, of: impl Fn(Slot) -> [f32; 4]) -> Vertex 
 thread_local! {
     /// The registers of a batch, kept from one to the next: a kernel loads what it reads before it reads it.
     pub(super) static MACHINE: RefCell<Machine<LANES>> = RefCell::new(Machine::new());
+    /// The rows of a batch, with the constants of the shader that ran last on this thread.
+    static ROWS: RefCell<LoadedBatch> = RefCell::default();
+}
+
+/// A number that no other shader with its constants has.
+fn number() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Relaxed)
+}
+
+/// A batch and the number of the shader whose constants it holds.
+#[derive(Default)]
+struct LoadedBatch {
+    shader: u64,
+    batch: Batch<LANES>,
+}
+
+impl LoadedBatch {
+    /// The batch, loaded for the shader with this number.
+    #[inline]
+    fn of(
+        &mut self,
+        shader: u64,
+        simd: Simd,
+        plan: &Plan,
+        environment: &Environment<'_>,
+    ) -> &mut Batch<LANES> {
+        if self.shader != shader {
+            self.batch.load(simd, plan, environment);
+            self.shader = shader;
+        }
+        &mut self.batch
+    }
 }
 
 /// A pixel shader with everything that is set while it runs.
@@ -155,6 +206,16 @@ impl PixelProgram<'_> {
         out.depth = machine.register(Slot::DEPTH)[0];
     }
 
+    /// Whether the shader replaces the depth of the pixel.
+    pub(super) fn writes_depth(&self) -> bool {
+        self.kernel.writes_depth()
+    }
+
+    /// Whether it may discard the pixel.
+    pub(super) fn may_kill(&self) -> bool {
+        self.kernel.kills()
+    }
+
     /// Runs the shader for a batch and records one lane.
     pub fn trace(&self, batch: &PixelBatch, lane: usize) -> PixelTrace {
         let mut machine = Machine::<LANES>::new();
@@ -171,26 +232,61 @@ impl PixelProgram<'_> {
     }
 }
 
-impl PixelShader for PixelProgram<'_> {
+/// A pixel shader as it runs in whole frames: the steps of its plan on many pixels at a time.
+pub struct BatchProgram<'a> {
+    program: PixelProgram<'a>,
+    plan: &'a Plan,
+    simd: Simd,
+    number: u64,
+}
+
+impl<'a> BatchProgram<'a> {
+    /// The program with the plan of its kernel.
+    pub fn new(program: PixelProgram<'a>, plan: &'a Plan) -> Self {
+        Self {
+            program,
+            plan,
+            simd: Simd::chosen(),
+            number: number(),
+        }
+    }
+}
+
+impl PixelShader for BatchProgram<'_> {
     fn inputs(&self) -> PixelInputs {
-        self.inputs_with(&[])
+        self.program.inputs_with(&[])
     }
 
     fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {
-        MACHINE.with_borrow_mut(|machine| {
-            self.load(machine, batch);
-            machine.run(self.kernel, self.environment);
-            out.color = *machine.register(Slot::R0);
-            Self::finish(machine, out);
+        let (plan, environment) = (self.plan, self.program.environment);
+        ROWS.with_borrow_mut(|rows| {
+            let rows = rows.of(self.number, self.simd, plan, environment);
+            // Interpolated colours are in 0 to 1 already.
+            rows.input(plan, |slot, component| {
+                let attribute = match slot.texcoord_index() {
+                    Some(set) => batch.texcoords.get(set)?,
+                    None if slot.input_index()? == 0 => &batch.diffuse,
+                    None => &batch.specular,
+                };
+                attribute.get(component)
+            });
+            rows.run(self.simd, plan, environment, 4 * batch.quads);
+            for (channel, row) in out.color.iter_mut().zip(rows.output(plan, Slot::R0)) {
+                *channel = row.copied().unwrap_or([0.0; LANES]);
+            }
+            out.killed = *rows.killed();
+            if let [Some(depth), ..] = rows.output(plan, Slot::DEPTH) {
+                out.depth = *depth;
+            }
         });
     }
 
     fn writes_depth(&self) -> bool {
-        self.kernel.writes_depth()
+        self.program.writes_depth()
     }
 
     fn may_kill(&self) -> bool {
-        self.kernel.kills()
+        self.program.may_kill()
     }
 }
 
