@@ -11,15 +11,16 @@
 mod error;
 mod lower;
 mod plan;
+mod show;
 mod slot;
 #[cfg(test)]
 mod tests;
 mod texture_ops;
 
 pub use error::LowerError;
+pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use plan::Plan;
 pub(crate) use plan::{NO_ROW, Row, RowFinish, RowOp, RowStep, UniformValue};
-pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
 pub use slot::{SLOT_COUNT, Slot};
 
 use crate::isa::{ResultModifier, SourceModifier, Swizzle, Version, WriteMask};

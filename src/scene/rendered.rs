@@ -10,7 +10,9 @@ use super::prepare::{Pass, PreparedDraw};
 use super::render::RenderError;
 use super::{Scene, TextureSource};
 use crate::exec::{Environment, Stage};
-use crate::raster::{BatchProgram, DrawCall, PixelProgram, RenderState, Vertex, Viewport, shade_vertices};
+use crate::raster::{
+    BatchProgram, DrawCall, PixelProgram, RenderState, Vertex, Viewport, shade_vertices,
+};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 

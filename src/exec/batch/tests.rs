@@ -8,4 +8,3 @@ use crate::isa::Version;
 use crate::kernel::{self, Kernel, Plan, lower};
 use crate::policy::{Model, OfZero, Policies, ZeroProduct};
 use crate::syntax;
-

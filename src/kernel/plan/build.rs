@@ -261,5 +261,7 @@ enum Part {
 
 /// The first `count` slots of the first source, and then those of the second.
 fn places(count: usize) -> Vec<(usize, usize)> {
-    (0..2).flat_map(|i| (0..count).map(move |k| (i, k))).collect()
+    (0..2)
+        .flat_map(|i| (0..count).map(move |k| (i, k)))
+        .collect()
 }

@@ -199,7 +199,9 @@ impl Plan {
     pub(crate) fn items(&self, step: &RowStep) -> impl Iterator<Item = (&[Row], &[Row])> {
         let results = step.op.results();
         let width = results + step.op.sources();
-        let operands = self.operands.get(step.first..step.first + width * step.items);
+        let operands = self
+            .operands
+            .get(step.first..step.first + width * step.items);
         (operands.unwrap_or_default().chunks_exact(width)).map(move |item| item.split_at(results))
     }
 

@@ -88,7 +88,12 @@ pub(super) fn place(kernel: &Kernel, graph: &Graph) -> Plan {
         });
     }
     plan.outputs = (graph.outputs.iter())
-        .map(|(slot, values)| (*slot, values.map(|value| value.map_or(NO_ROW, |v| rows.of(v)))))
+        .map(|(slot, values)| {
+            (
+                *slot,
+                values.map(|value| value.map_or(NO_ROW, |v| rows.of(v))),
+            )
+        })
         .collect();
     plan.rows = rows.count as usize;
     plan
@@ -172,7 +177,12 @@ impl Rows {
                     Some(if forever { usize::MAX } else { time });
             }
         }
-        for value in graph.outputs.iter().flat_map(|(_, values)| values).flatten() {
+        for value in graph
+            .outputs
+            .iter()
+            .flat_map(|(_, values)| values)
+            .flatten()
+        {
             reader[value.node][usize::from(value.part)] = Some(usize::MAX);
         }
         let mut last = vec![Vec::new(); steps.len()];
@@ -208,7 +218,8 @@ impl Rows {
     /// Frees what no step behind this one reads.
     fn free_after(&mut self, time: usize) {
         for value in self.last.get(time).into_iter().flatten() {
-            self.free.push(self.places[value.node][usize::from(value.part)]);
+            self.free
+                .push(self.places[value.node][usize::from(value.part)]);
         }
     }
 }
