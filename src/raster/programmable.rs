@@ -2,9 +2,10 @@
 
 use super::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, Vertex};
 use crate::exec::{Batch, Environment, Lanes, Machine, Observer, Trace};
+use crate::isa::WriteMask;
 use crate::kernel::{Kernel, Plan, Slot};
 use crate::semantics;
-use crate::simd::Simd;
+use crate::simd::{Simd, Task};
 use glam::Vec4;
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -31,43 +32,102 @@ pub fn shade_vertices(
         .collect();
     let simd = Simd::chosen();
     let shader = number();
-    let batch = |number: usize| -> Vec<Vertex> {
+    let batch = |(number, vertices): (usize, &mut [Vertex])| {
         let first = number * LANES;
-        let live = count.saturating_sub(first).min(LANES);
+        let mut fetched = [[[0.0; LANES]; 4]; INPUTS];
+        for (register, _) in &inputs {
+            for lane in 0..vertices.len() {
+                let value = fetch(first + lane, *register);
+                for (lanes, number) in fetched[*register].iter_mut().zip(value) {
+                    lanes[lane] = number;
+                }
+            }
+        }
         ROWS.with_borrow_mut(|rows| {
-            let batch = rows.of(shader, simd, plan, environment);
-            let mut fetched = [[[0.0; LANES]; 4]; INPUTS];
-            for (register, _) in &inputs {
-                for lane in 0..live {
-                    let value = fetch(first + lane, *register);
-                    for (lanes, number) in fetched[*register].iter_mut().zip(value) {
-                        lanes[lane] = number;
+            simd.run(ShadeVertices {
+                batch: rows.of(shader, plan, environment),
+                kernel,
+                plan,
+                environment,
+                fetched: &fetched,
+                vertices,
+            });
+        });
+    };
+    // What no output is written to is what a vertex has by itself.
+    let mut vertices = vec![Vertex::default(); count];
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        vertices
+            .par_chunks_mut(LANES)
+            .with_min_len(8)
+            .enumerate()
+            .for_each(batch);
+    }
+    #[cfg(not(feature = "parallel"))]
+    vertices.chunks_mut(LANES).enumerate().for_each(batch);
+    vertices
+}
+
+/// A batch of vertices, as something that is compiled for each set of instructions.
+struct ShadeVertices<'a, 'e> {
+    batch: &'a mut Batch<LANES>,
+    kernel: &'a Kernel,
+    plan: &'a Plan,
+    environment: &'a Environment<'e>,
+    fetched: &'a [[[f32; LANES]; 4]; INPUTS],
+    vertices: &'a mut [Vertex],
+}
+
+impl Task for ShadeVertices<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            batch,
+            kernel,
+            plan,
+            vertices,
+            ..
+        } = self;
+        batch.input(plan, |slot, component| {
+            self.fetched.get(slot.input_index()?)?.get(component)
+        });
+        batch.run_here(plan, self.environment, vertices.len());
+        for (slot, component) in [
+            (Slot::FOG, kernel.fog_component),
+            (Slot::POINT_SIZE, kernel.point_size_component),
+        ] {
+            let row = batch.output(plan, slot)[component & 3];
+            if let Some(row) = row.filter(|_| !kernel.written(slot).is_empty()) {
+                for (vertex, number) in vertices.iter_mut().zip(row) {
+                    match slot {
+                        Slot::FOG => vertex.fog = *number,
+                        _ => vertex.point_size = Some(*number),
                     }
                 }
             }
-            batch.input(plan, |slot, component| {
-                fetched.get(slot.input_index()?)?.get(component)
-            });
-            batch.run(simd, plan, environment, live);
-            (0..live)
-                .map(|lane| {
-                    vertex_outputs(kernel, |slot| {
-                        let rows = batch.output(plan, slot);
-                        rows.map(|row| row.map_or(0.0, |row| row[lane]))
-                    })
-                })
-                .collect()
-        })
-    };
-    let batches = count.div_ceil(LANES);
-    #[cfg(feature = "parallel")]
-    let vertices = {
-        use rayon::prelude::*;
-        (0..batches).into_par_iter().flat_map_iter(batch).collect()
-    };
-    #[cfg(not(feature = "parallel"))]
-    let vertices = (0..batches).flat_map(batch).collect();
-    vertices
+        }
+        let mut take = |slot: Option<Slot>, place: fn(&mut Vertex, usize) -> &mut Vec4, n| {
+            let Some(slot) = slot.filter(|slot| !kernel.written(*slot).is_empty()) else {
+                return;
+            };
+            if let [Some(x), Some(y), Some(z), Some(w)] = batch.output(plan, slot) {
+                for (lane, vertex) in vertices.iter_mut().enumerate().take(LANES) {
+                    *place(vertex, n) = Vec4::new(x[lane], y[lane], z[lane], w[lane]);
+                }
+            }
+        };
+        take(Some(Slot::POSITION), |vertex, _| &mut vertex.position, 0);
+        take(Slot::color_output(0), |vertex, _| &mut vertex.diffuse, 0);
+        take(Slot::color_output(1), |vertex, _| &mut vertex.specular, 0);
+        for set in 0..SETS {
+            let slot = Slot::texcoord_output(set);
+            take(slot, |vertex, set| &mut vertex.texcoords[set], set);
+        }
+    }
 }
 
 /// What a vertex shader leaves to the rasterizer, its registers being what `of` gives.
@@ -113,15 +173,9 @@ struct LoadedBatch {
 impl LoadedBatch {
     /// The batch, loaded for the shader with this number.
     #[inline]
-    fn of(
-        &mut self,
-        shader: u64,
-        simd: Simd,
-        plan: &Plan,
-        environment: &Environment<'_>,
-    ) -> &mut Batch<LANES> {
+    fn of(&mut self, shader: u64, plan: &Plan, environment: &Environment<'_>) -> &mut Batch<LANES> {
         if self.shader != shader {
-            self.batch.load(simd, plan, environment);
+            self.batch.load(plan, environment);
             self.shader = shader;
         }
         &mut self.batch
@@ -161,10 +215,15 @@ impl PixelProgram<'_> {
 
     /// What is to be interpolated for the shader, and for whoever looks at these slots.
     pub(super) fn inputs_with(&self, others: &[Slot]) -> PixelInputs {
+        let read = |slot: Option<Slot>| match slot {
+            Some(slot) if others.contains(&slot) => WriteMask::ALL,
+            Some(slot) => self.kernel.read(slot),
+            None => WriteMask::NONE,
+        };
         PixelInputs {
-            diffuse: self.color(0, others).is_some(),
-            specular: self.color(1, others).is_some(),
-            texcoords: (self.texcoords(others)).fold(0, |bits, (i, _)| bits | 1 << i),
+            diffuse: read(Slot::input(0)),
+            specular: read(Slot::input(1)),
+            texcoords: std::array::from_fn(|set| read(Slot::texcoord(set))),
         }
     }
 
@@ -254,30 +313,30 @@ impl<'a> BatchProgram<'a> {
 
 impl PixelShader for BatchProgram<'_> {
     fn inputs(&self) -> PixelInputs {
-        self.program.inputs_with(&[])
+        let mut inputs = PixelInputs::NONE;
+        for (slot, component) in self.plan.inputs() {
+            let read = match slot.texcoord_index() {
+                Some(set) => inputs.texcoords.get_mut(set),
+                None if slot.input_index() == Some(0) => Some(&mut inputs.diffuse),
+                None => Some(&mut inputs.specular),
+            };
+            if let Some(read) = read {
+                *read = read.or(WriteMask::component(component));
+            }
+        }
+        inputs
     }
 
-    fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {
+    fn shade(&self, pixels: &PixelBatch, out: &mut PixelResult) {
         let (plan, environment) = (self.plan, self.program.environment);
         ROWS.with_borrow_mut(|rows| {
-            let rows = rows.of(self.number, self.simd, plan, environment);
-            // Interpolated colours are in 0 to 1 already.
-            rows.input(plan, |slot, component| {
-                let attribute = match slot.texcoord_index() {
-                    Some(set) => batch.texcoords.get(set)?,
-                    None if slot.input_index()? == 0 => &batch.diffuse,
-                    None => &batch.specular,
-                };
-                attribute.get(component)
+            self.simd.run(ShadePixels {
+                batch: rows.of(self.number, plan, environment),
+                plan,
+                environment,
+                pixels,
+                out,
             });
-            rows.run(self.simd, plan, environment, 4 * batch.quads);
-            for (channel, row) in out.color.iter_mut().zip(rows.output(plan, Slot::R0)) {
-                *channel = row.copied().unwrap_or([0.0; LANES]);
-            }
-            out.killed = *rows.killed();
-            if let [Some(depth), ..] = rows.output(plan, Slot::DEPTH) {
-                out.depth = *depth;
-            }
         });
     }
 
@@ -287,6 +346,47 @@ impl PixelShader for BatchProgram<'_> {
 
     fn may_kill(&self) -> bool {
         self.program.may_kill()
+    }
+}
+
+/// A batch of pixels, as something that is compiled for each set of instructions.
+struct ShadePixels<'a, 'e> {
+    batch: &'a mut Batch<LANES>,
+    plan: &'a Plan,
+    environment: &'a Environment<'e>,
+    pixels: &'a PixelBatch,
+    out: &'a mut PixelResult,
+}
+
+impl Task for ShadePixels<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            batch,
+            plan,
+            pixels,
+            out,
+            ..
+        } = self;
+        // Interpolated colours are in 0 to 1 already.
+        batch.input(plan, |slot, component| {
+            let attribute = match slot.texcoord_index() {
+                Some(set) => pixels.texcoords.get(set)?,
+                None if slot.input_index()? == 0 => &pixels.diffuse,
+                None => &pixels.specular,
+            };
+            attribute.get(component)
+        });
+        batch.run_here(plan, self.environment, 4 * pixels.quads);
+        for (channel, row) in out.color.iter_mut().zip(batch.output(plan, Slot::R0)) {
+            *channel = row.copied().unwrap_or([0.0; LANES]);
+        }
+        out.killed = *batch.killed();
+        if let [Some(depth), ..] = batch.output(plan, Slot::DEPTH) {
+            out.depth = *depth;
+        }
     }
 }
 

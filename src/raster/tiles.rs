@@ -15,6 +15,7 @@ use super::setup::{Room, Setup, Stage};
 use super::state::FogMode;
 use super::target::{ColorFormat, TILE, Target, Tile};
 use super::{DrawCall, DrawError};
+use crate::simd::{Simd, Task};
 
 /// Primitives that are set up before any of them is drawn. Bounds the memory of a draw call of any length.
 const CHUNK: usize = 1 << 14;
@@ -88,6 +89,7 @@ pub fn draw(
         },
         timing: DepthTiming::of(call.state, shader.writes_depth(), shader.may_kill()),
         format: target.format(),
+        simd: Simd::chosen(),
     };
     let across = target.tiles_across();
     let tiles = target.tiles_mut();
@@ -184,7 +186,13 @@ fn paint_all(
             x1: x0 + TILE as i32,
             y1: y0 + TILE as i32,
         };
-        let statistics = painter.paint(tile, &area, list, shapes);
+        let statistics = painter.simd.run(Paint {
+            painter,
+            tile,
+            area,
+            list,
+            shapes,
+        });
         list.clear();
         statistics
     };
@@ -212,25 +220,41 @@ struct Painter<'a> {
     interpolator: Interpolator<'a>,
     timing: DepthTiming,
     format: ColorFormat,
+    simd: Simd,
 }
 
-impl Painter<'_> {
-    fn paint(&self, tile: &mut Tile, area: &Bounds, list: &[u32], shapes: &[Setup]) -> Statistics {
+/// A tile to be painted, as something that is compiled for each set of instructions.
+struct Paint<'a, 'b> {
+    painter: &'a Painter<'b>,
+    tile: &'a mut Tile,
+    area: Bounds,
+    list: &'a [u32],
+    shapes: &'a [Setup],
+}
+
+impl Task for Paint<'_, '_> {
+    type Output = Statistics;
+
+    #[inline(always)]
+    fn run(self) -> Statistics {
         let mut brush = Brush {
-            painter: self,
-            tile,
-            shapes,
+            painter: self.painter,
+            tile: self.tile,
+            shapes: self.shapes,
             batch: PixelBatch::empty(),
             owners: [0; QUADS],
             shaded: PixelResult::new(),
             statistics: Statistics::default(),
         };
-        for &number in list {
-            let shape = &shapes[number as usize];
-            if let Some(bounds) = shape.bounds.intersect(area) {
-                shape
-                    .shape
-                    .scan(&bounds, |x, y, mask| brush.quad(number, x, y, mask));
+        let mut quads: Vec<(i32, i32, u8)> = Vec::new();
+        for &number in self.list {
+            let shape = &self.shapes[number as usize];
+            if let Some(bounds) = shape.bounds.intersect(&self.area) {
+                quads.clear();
+                (shape.shape).scan(&bounds, |x, y, mask| quads.push((x, y, mask)));
+                for &(x, y, mask) in &quads {
+                    brush.quad(number, x, y, mask);
+                }
             }
         }
         brush.flush();
@@ -239,8 +263,8 @@ impl Painter<'_> {
 }
 
 /// Collects quads of one tile and draws them a batch at a time.
-struct Brush<'a> {
-    painter: &'a Painter<'a>,
+struct Brush<'a, 'b> {
+    painter: &'a Painter<'b>,
     tile: &'a mut Tile,
     shapes: &'a [Setup],
     batch: PixelBatch,
@@ -250,7 +274,8 @@ struct Brush<'a> {
     statistics: Statistics,
 }
 
-impl Brush<'_> {
+impl Brush<'_, '_> {
+    #[inline(always)]
     fn quad(&mut self, number: u32, x: i32, y: i32, mask: u8) {
         let state = self.painter.stage.call.state;
         let z = depths(&self.shapes[number as usize], x, y);
@@ -262,15 +287,18 @@ impl Brush<'_> {
         if mask == 0 {
             return;
         }
+        // Before, not behind: there is one place only where a batch is drawn while quads come.
+        if self.batch.quads == QUADS {
+            self.flush();
+        }
         let quad = self.batch.quads;
         self.owners[quad] = number;
         self.batch.place(quad, x, y, mask, &z);
         self.batch.quads += 1;
-        if self.batch.quads == QUADS {
-            self.flush();
-        }
+        self.statistics.shaded += u64::from(mask.count_ones());
     }
 
+    #[inline(always)]
     fn flush(&mut self) {
         if self.batch.quads == 0 {
             return;
@@ -283,10 +311,6 @@ impl Brush<'_> {
         self.shaded.killed.fill(false);
         painter.shader.shade(&self.batch, &mut self.shaded);
         self.statistics.quads += self.batch.quads as u64;
-        let live = self.batch.live[..4 * self.batch.quads]
-            .iter()
-            .filter(|live| **live);
-        self.statistics.shaded += live.count() as u64;
         self.statistics.written += merge(
             self.tile,
             painter.format,

@@ -33,7 +33,7 @@ impl<const N: usize> Default for Batch<N> {
 impl<const N: usize> Batch<N> {
     /// Loads the constants, and computes what follows from them alone. Must come before [`Self::run`], and again when plan,
     /// constants or stages have changed.
-    pub fn load(&mut self, simd: Simd, plan: &Plan, environment: &Environment<'_>) {
+    pub fn load(&mut self, plan: &Plan, environment: &Environment<'_>) {
         self.rows.resize(plan.rows);
         for uniform in &plan.uniforms {
             let value = match uniform.value {
@@ -45,13 +45,8 @@ impl<const N: usize> Batch<N> {
             };
             self.rows.fill(uniform.row, value);
         }
-        simd.run(Run {
-            batch: self,
-            plan,
-            environment,
-            steps: 0..plan.once,
-            lanes: N,
-        });
+        // Once a draw: not worth a copy of its own for each set of instructions.
+        self.steps(plan, environment, 0..plan.once, N);
     }
 
     /// Loads an input: `component(slot, c)` is a component of a register in all lanes. It is asked only for what the shader
@@ -71,14 +66,39 @@ impl<const N: usize> Batch<N> {
 
     /// Runs the first `lanes` lanes on the inputs that were loaded; the others may hold anything afterwards.
     pub fn run(&mut self, simd: Simd, plan: &Plan, environment: &Environment<'_>, lanes: usize) {
-        self.killed = [false; N];
         simd.run(Run {
             batch: self,
             plan,
             environment,
-            steps: plan.once..plan.steps.len(),
             lanes,
         });
+    }
+
+    /// As [`Self::run`], within a task.
+    #[inline(always)]
+    pub(crate) fn run_here(&mut self, plan: &Plan, environment: &Environment<'_>, lanes: usize) {
+        self.killed = [false; N];
+        self.steps(plan, environment, plan.once..plan.steps.len(), lanes);
+    }
+
+    #[inline(always)]
+    fn steps(
+        &mut self,
+        plan: &Plan,
+        environment: &Environment<'_>,
+        steps: std::ops::Range<usize>,
+        lanes: usize,
+    ) {
+        for step in plan.steps.get(steps).unwrap_or_default() {
+            step::take(
+                &mut self.rows,
+                &mut self.killed,
+                plan,
+                step,
+                environment,
+                lanes,
+            );
+        }
     }
 
     /// The components that the shader leaves in a slot; of one that is no output of it nothing.
@@ -98,7 +118,6 @@ struct Run<'a, 'e, const N: usize> {
     batch: &'a mut Batch<N>,
     plan: &'a Plan,
     environment: &'a Environment<'e>,
-    steps: std::ops::Range<usize>,
     lanes: usize,
 }
 
@@ -107,16 +126,6 @@ impl<const N: usize> Task for Run<'_, '_, N> {
 
     #[inline(always)]
     fn run(self) {
-        let steps = self.plan.steps.get(self.steps).unwrap_or_default();
-        for step in steps {
-            step::take(
-                &mut self.batch.rows,
-                &mut self.batch.killed,
-                self.plan,
-                step,
-                self.environment,
-                self.lanes,
-            );
-        }
+        (self.batch).run_here(self.plan, self.environment, self.lanes);
     }
 }

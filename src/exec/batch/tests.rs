@@ -73,7 +73,7 @@ fn agree<const N: usize>(
     machine.run(kernel, &environment);
     for simd in Simd::ALL {
         let mut batch = Batch::<N>::default();
-        batch.load(simd, plan, &environment);
+        batch.load(plan, &environment);
         // The second run must find everything as the first did.
         for _ in 0..2 {
             batch.input(plan, |slot, c| inputs.register(slot).get(c));
@@ -102,7 +102,9 @@ fn agree<const N: usize>(
 fn batches_leave_the_bits_that_machines_leave() {
     let textures = Textures::new().unwrap();
     for seed in 0..1400 {
-        let version = Version::all().nth(seed as usize % Version::all().count()).unwrap();
+        let version = Version::all()
+            .nth(seed as usize % Version::all().count())
+            .unwrap();
         let mut random = Random::new(seed);
         let options_of_shader = generate::Options {
             comparable: false,
@@ -132,7 +134,7 @@ fn outputs_are_whole() {
             constants,
             ..Environment::default()
         };
-        batch.load(Simd::Baseline, &plan, &environment);
+        batch.load(&plan, &environment);
         let outputs: &[Slot] = match version.kind() {
             ShaderKind::Pixel => &[Slot::R0],
             ShaderKind::Vertex => &[Slot::POSITION, Slot::FOG, Slot::POINT_SIZE],

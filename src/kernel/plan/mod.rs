@@ -195,6 +195,12 @@ impl Plan {
         rows::place(kernel, &graph)
     }
 
+    /// The components of inputs that are read.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (Slot, usize)> {
+        let inputs = self.inputs.iter();
+        inputs.map(|input| (input.slot, usize::from(input.component)))
+    }
+
     /// The rows that a step writes and those that it reads, item by item.
     pub(crate) fn items(&self, step: &RowStep) -> impl Iterator<Item = (&[Row], &[Row])> {
         let results = step.op.results();

@@ -20,15 +20,15 @@ fn ops(listing: &str) -> Vec<(RowOp, usize)> {
 
 #[test]
 fn what_nobody_reads_is_left_out() {
-    // Of the product in r1 only red is read, and r2 not at all.
-    let listing = "ps.1.1\nmul r1, v0, v1\nadd r2, v0, v1\nadd r0, r1.r, v1\n";
-    // `.r` is no selector of ps.1.1, but has a meaning.
+    // Of the product in r1 only x is read, and r2 not at all.
+    let listing = "vs.1.1\nmul r1, v0, v1\nadd r2, v0, v1\nadd oPos, r1.x, v1\n";
     assert_eq!(ops(listing), [(RowOp::Mul, 1), (RowOp::Add, 4)]);
 }
 
 #[test]
 fn moves_are_reads_of_another_row() {
-    let listing = "ps.1.4\ntexcrd r1.rgb, t0\nmov r2.rgb, r1\nmul r0.rgb, r2, r1\n+mov r0.a, c0.a\n";
+    let listing =
+        "ps.1.4\ntexcrd r1.rgb, t0\nmov r2.rgb, r1\nmul r0.rgb, r2, r1\n+mov r0.a, c0.a\n";
     assert_eq!(ops(listing), [(RowOp::Mul, 3)]);
     // What moved is loaded as it would have been written: without denormal numbers.
     assert!(plan(listing).inputs.iter().all(|input| input.flushed));
@@ -71,7 +71,9 @@ fn rows_hold_until_they_were_read() {
     use crate::isa::Version;
     let textures = Textures::new().unwrap();
     for seed in 0..200 {
-        let version = Version::all().nth(seed as usize % Version::all().count()).unwrap();
+        let version = Version::all()
+            .nth(seed as usize % Version::all().count())
+            .unwrap();
         let options = generate::Options::new(version);
         let shader = generate::shader(&mut Random::new(seed), &options, &textures);
         let plan = Plan::new(&shader.lower(&shader.program).unwrap());
