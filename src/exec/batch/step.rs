@@ -2,10 +2,10 @@
 
 use super::rows::Rows;
 use crate::exec::environment::{Environment, STAGES};
-use crate::isa::SourceModifier;
-use crate::kernel::{Plan, Row, RowFinish, RowOp, RowStep};
+use crate::isa::{ResultModifier, SourceModifier};
+use crate::kernel::{Plan, RowFinish, RowOp, RowStep};
 use crate::policy::{Model, ZeroProduct};
-use crate::semantics::{self, BumpState, Finish};
+use crate::semantics::{self, Finish};
 use crate::texture::sample_quads;
 
 /// Takes a step. The lanes from `lanes` on may hold anything afterwards.
@@ -25,67 +25,82 @@ pub(super) fn take<const N: usize>(
     use semantics as is;
     match step.op {
         RowOp::Mov => on.each(|[a]| a),
+        // Nothing is done to what an operand reads; each modifier has a loop of its own.
         RowOp::Modify(modifier) => match modifier {
-            SourceModifier::Negate => on.each(|[a]| is::modify(SourceModifier::Negate, a)),
-            SourceModifier::Bx2 => on.each(|[a]| is::modify(SourceModifier::Bx2, a)),
-            SourceModifier::X2 => on.each(|[a]| is::modify(SourceModifier::X2, a)),
-            SourceModifier::Complement => on.each(|[a]| is::modify(SourceModifier::Complement, a)),
-            SourceModifier::Bias => on.each(|[a]| is::modify(SourceModifier::Bias, a)),
-            modifier => on.each(|[a]| is::modify(modifier, a)),
+            SourceModifier::Negate => on.items(|[a]| is::modify(SourceModifier::Negate, a)),
+            SourceModifier::Bx2 => on.items(|[a]| is::modify(SourceModifier::Bx2, a)),
+            SourceModifier::X2 => on.items(|[a]| is::modify(SourceModifier::X2, a)),
+            SourceModifier::Complement => on.items(|[a]| is::modify(SourceModifier::Complement, a)),
+            SourceModifier::Bias => on.items(|[a]| is::modify(SourceModifier::Bias, a)),
+            modifier => on.items(|[a]| is::modify(modifier, a)),
         },
-        RowOp::Operand(model, modifier) => on.each(|[a]| is::operand(model, modifier, a)),
+        RowOp::Operand(model, modifier) => on.items(|[a]| is::operand(model, modifier, a)),
         RowOp::Add => on.each(|[a, b]| a + b),
         RowOp::Sub => on.each(|[a, b]| a - b),
-        RowOp::Mul if ieee => on.each(|[a, b]| is::product::<true>(a, b)),
+        RowOp::Mul if ieee => on.seldom(|[a, b]| is::product::<true>(a, b)),
         RowOp::Mul => on.each(|[a, b]| is::product::<false>(a, b)),
-        RowOp::Mad if ieee => on.each(|[a, b, c]| is::mad::<true>(a, b, c)),
+        RowOp::Mad if ieee => on.seldom(|[a, b, c]| is::mad::<true>(a, b, c)),
         RowOp::Mad => on.each(|[a, b, c]| is::mad::<false>(a, b, c)),
-        RowOp::Lrp if ieee => on.each(|[a, b, c]| is::lrp::<true>(a, b, c)),
+        RowOp::Lrp if ieee => on.seldom(|[a, b, c]| is::lrp::<true>(a, b, c)),
         RowOp::Lrp => on.each(|[a, b, c]| is::lrp::<false>(a, b, c)),
         RowOp::Min => on.each(|[a, b]| is::min(a, b)),
         RowOp::Max => on.each(|[a, b]| is::max(a, b)),
-        RowOp::Slt => on.each(|[a, b]| is::slt(a, b)),
-        RowOp::Sge => on.each(|[a, b]| is::sge(a, b)),
-        RowOp::Frc => on.each(|[a]| is::frc(a)),
-        RowOp::Address => on.each(|[a]| is::address(a)),
+        RowOp::Slt => on.seldom(|[a, b]| is::slt(a, b)),
+        RowOp::Sge => on.seldom(|[a, b]| is::sge(a, b)),
+        RowOp::Frc => on.seldom(|[a]| is::frc(a)),
+        RowOp::Address => on.seldom(|[a]| is::address(a)),
         RowOp::Cnd => on.each(|[a, b, c]| is::cnd(a, b, c)),
         RowOp::Cmp => on.each(|[a, b, c]| is::cmp(a, b, c)),
-        RowOp::Dp3 if ieee => on.each(|[a, b, c, d, e, f]| is::dp3::<true>([a, b, c], [d, e, f])),
+        RowOp::Dp3 if ieee => on.seldom(|[a, b, c, d, e, f]| is::dp3::<true>([a, b, c], [d, e, f])),
         RowOp::Dp3 => on.each(|[a, b, c, d, e, f]| is::dp3::<false>([a, b, c], [d, e, f])),
         RowOp::Dp4 if ieee => {
-            on.each(|[a, b, c, d, e, f, g, h]| is::dp4::<true>([a, b, c, d], [e, f, g, h]))
+            on.seldom(|[a, b, c, d, e, f, g, h]| is::dp4::<true>([a, b, c, d], [e, f, g, h]))
         }
         RowOp::Dp4 => {
             on.each(|[a, b, c, d, e, f, g, h]| is::dp4::<false>([a, b, c, d], [e, f, g, h]))
         }
-        RowOp::Rcp => on.each(|[a]| is::rcp(of_zero, a)),
-        RowOp::Rsq => on.each(|[a]| is::rsq(of_zero, a)),
-        RowOp::Exp => on.each(|[a]| is::exp(a)),
-        RowOp::Log => on.each(|[a]| is::log(of_zero, a)),
-        RowOp::ExpP(0) => on.each(|[a]| is::expp(a)[0]),
-        RowOp::ExpP(1) => on.each(|[a]| is::expp(a)[1]),
-        RowOp::ExpP(_) => on.each(|[a]| is::expp(a)[2]),
-        RowOp::LogP(0) => on.each(|[a]| is::logp(of_zero, a)[0]),
-        RowOp::LogP(1) => on.each(|[a]| is::logp(of_zero, a)[1]),
-        RowOp::LogP(_) => on.each(|[a]| is::logp(of_zero, a)[2]),
-        RowOp::LitDiffuse => on.each(|[x]| is::lit::<false>([x, 0.0, 0.0, 0.0])[1]),
-        RowOp::LitSpecular if ieee => on.each(|[x, y, w]| is::lit::<true>([x, y, 0.0, w])[2]),
-        RowOp::LitSpecular => on.each(|[x, y, w]| is::lit::<false>([x, y, 0.0, w])[2]),
-        RowOp::Divide => on.each(|[a, b]| is::divide(a, b)),
-        RowOp::Bump(stage, 0) => on.bump(bump(stage), 0),
-        RowOp::Bump(stage, _) => on.bump(bump(stage), 1),
+        RowOp::Rcp => on.seldom(|[a]| is::rcp(of_zero, a)),
+        RowOp::Rsq => on.seldom(|[a]| is::rsq(of_zero, a)),
+        RowOp::Exp => on.seldom(|[a]| is::exp(a)),
+        RowOp::Log => on.seldom(|[a]| is::log(of_zero, a)),
+        RowOp::ExpP(component) => on.seldom(|[a]| is::expp(a)[usize::from(component) & 3]),
+        RowOp::LogP(component) => {
+            on.seldom(|[a]| is::logp(of_zero, a)[usize::from(component) & 3]);
+        }
+        RowOp::LitDiffuse => on.seldom(|[x]| is::lit::<false>([x, 0.0, 0.0, 0.0])[1]),
+        RowOp::LitSpecular if ieee => on.seldom(|[x, y, w]| is::lit::<true>([x, y, 0.0, w])[2]),
+        RowOp::LitSpecular => on.seldom(|[x, y, w]| is::lit::<false>([x, y, 0.0, w])[2]),
+        RowOp::Divide => on.seldom(|[a, b]| is::divide(a, b)),
+        RowOp::Bump(stage, component) => {
+            let state = bump(stage);
+            on.seldom(|[x, y, u, v]| is::bump([x, y], [u, v], &state)[usize::from(component) & 1]);
+        }
         RowOp::Luminance(stage, model) => {
             let state = bump(stage);
-            on.each(|[a, b]| is::luminance(model, a, b, &state));
+            on.seldom(|[a, b]| is::luminance(model, a, b, &state));
         }
-        RowOp::Depth => on.each(|[a, b]| is::depth(a, b)),
+        RowOp::Depth => on.seldom(|[a, b]| is::depth(a, b)),
         RowOp::Reflect => on.reflect(),
         RowOp::Sample(stage) => {
             let stage = &environment.stages[usize::from(stage) % STAGES];
             on.several(|[x, y, z]: [&[f32; N]; 3]| {
                 let mut texels = [[0.0; N]; 4];
-                let coordinates = [*x, *y, *z];
-                sample_quads(stage.texture, &stage.sampler, &coordinates, &mut texels);
+                if lanes == N {
+                    let coordinates = [*x, *y, *z];
+                    sample_quads(stage.texture, &stage.sampler, &coordinates, &mut texels);
+                    return texels;
+                }
+                // Sampling is worth leaving out what nobody sees.
+                for first in (0..lanes.min(N)).step_by(4) {
+                    let coordinates = [x, y, z].map(|row| quad(row, first));
+                    let mut of_quad = [[0.0; 4]; 4];
+                    sample_quads(stage.texture, &stage.sampler, &coordinates, &mut of_quad);
+                    for (texels, of_quad) in texels.iter_mut().zip(of_quad) {
+                        for (texel, value) in texels.iter_mut().skip(first).zip(of_quad) {
+                            *texel = value;
+                        }
+                    }
+                }
                 texels
             });
         }
@@ -107,7 +122,6 @@ pub(super) fn take<const N: usize>(
             on.each(|[a0]| constant(a0));
         }
     }
-    let _ = lanes;
     if step.writes != Model::Float {
         on.hold();
     }
@@ -121,35 +135,40 @@ struct On<'a, const N: usize> {
 }
 
 impl<const N: usize> On<'_, N> {
-    /// The same operation on each lane of each item.
+    /// The same operation on each lane of each item, behind it what the step does to results. One loop for results that only
+    /// lose their denormal numbers, which are nearly all.
     #[inline(always)]
     fn each<const S: usize>(&mut self, f: impl Fn([f32; S]) -> f32) {
         match self.step.finish {
-            RowFinish::Keep => self.items(|sources| f(sources)),
-            RowFinish::Flush => self.items(|sources| semantics::flush(f(sources))),
-            RowFinish::Full(modifier) => {
-                let finish = Finish::new(modifier);
-                self.items(|sources| finish.apply(f(sources)));
+            RowFinish::Keep | RowFinish::Flush => {
+                self.items(|sources| semantics::flush(f(sources)))
             }
+            RowFinish::Full(_) => self.seldom(f),
         }
+    }
+
+    /// The same with one loop for everything, for operations that are seldom many.
+    #[inline(always)]
+    fn seldom<const S: usize>(&mut self, f: impl Fn([f32; S]) -> f32) {
+        let finish = Finish::new(match self.step.finish {
+            RowFinish::Keep | RowFinish::Flush => ResultModifier::NONE,
+            RowFinish::Full(modifier) => modifier,
+        });
+        self.items(|sources| finish.apply(f(sources)));
     }
 
     #[inline(always)]
     fn items<const S: usize>(&mut self, f: impl Fn([f32; S]) -> f32) {
-        for (results, sources) in self.plan.items(self.step) {
-            let ([to], Ok(from)) = (results, <[Row; S]>::try_from(sources)) else {
+        for item in self.plan.operands(self.step).chunks_exact(S + 1) {
+            let Some((to, from)) = item.split_first() else {
                 continue;
             };
-            if let Some((to, from)) = self.rows.split(*to, from) {
-                lanes(to, from, &f);
+            if let Some(from) = from.first_chunk::<S>()
+                && let Some((to, from)) = self.rows.split(*to, *from)
+            {
+                each_lane(to, from, &f);
             }
         }
-    }
-
-    /// Coordinates through a bump matrix.
-    #[inline(always)]
-    fn bump(&mut self, state: BumpState, component: usize) {
-        self.each(|[x, y, u, v]| semantics::bump([x, y], [u, v], &state)[component & 1]);
     }
 
     /// Several results at once.
@@ -165,8 +184,9 @@ impl<const N: usize> On<'_, N> {
                 row.unwrap_or(&none)
             }));
             match self.step.finish {
-                RowFinish::Keep => self.rows.store(results, &values, |x| x),
-                RowFinish::Flush => self.rows.store(results, &values, semantics::flush),
+                RowFinish::Keep | RowFinish::Flush => {
+                    self.rows.store(results, &values, semantics::flush);
+                }
                 RowFinish::Full(modifier) => {
                     let finish = Finish::new(modifier);
                     self.rows.store(results, &values, |x| finish.apply(x));
@@ -204,7 +224,7 @@ impl<const N: usize> On<'_, N> {
 
 /// One operation on all lanes.
 #[inline(always)]
-fn lanes<const N: usize, const S: usize>(
+fn each_lane<const N: usize, const S: usize>(
     to: &mut [f32; N],
     from: [&[f32; N]; S],
     f: impl Fn([f32; S]) -> f32,
@@ -212,4 +232,10 @@ fn lanes<const N: usize, const S: usize>(
     for (lane, to) in to.iter_mut().enumerate() {
         *to = f(from.map(|row| row[lane]));
     }
+}
+
+/// Four lanes of a row.
+#[inline(always)]
+fn quad<const N: usize>(row: &[f32; N], first: usize) -> [f32; 4] {
+    std::array::from_fn(|i| row.get(first + i).copied().unwrap_or_default())
 }

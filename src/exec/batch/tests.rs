@@ -71,15 +71,21 @@ fn agree<const N: usize>(
     }
     let inputs = machine.clone();
     machine.run(kernel, &environment);
+    // Quads are whole; the last of them may be missing.
+    let live = match N {
+        32 => 4 * (1 + random.below(8) as usize),
+        _ => N,
+    };
     for simd in Simd::ALL {
         let mut batch = Batch::<N>::default();
         batch.load(plan, &environment);
         // The second run must find everything as the first did.
         for _ in 0..2 {
             batch.input(plan, |slot, c| inputs.register(slot).get(c));
-            batch.run(simd, plan, &environment, N);
+            batch.run(simd, plan, &environment, live);
         }
-        assert_eq!(batch.killed(), machine.killed(), "{}", shader.listing);
+        let (killed, of_machine) = (&batch.killed()[..live], &machine.killed()[..live]);
+        assert_eq!(killed, of_machine, "{}", shader.listing);
         let outputs = plan.outputs.iter().map(|(slot, _)| *slot);
         for slot in outputs {
             let left = batch.output(plan, slot);
@@ -87,8 +93,8 @@ fn agree<const N: usize>(
                 let Some(left) = left[c] else { continue };
                 let place = format!("{} component {c}, {simd}", slot.name(kernel.version.kind()));
                 assert_eq!(
-                    left.map(bits),
-                    expected.map(bits),
+                    left.map(bits)[..live],
+                    expected.map(bits)[..live],
                     "{place}\n{}\n{:?}\n{plan}",
                     shader.listing,
                     (kernel.model, kernel.policies)

@@ -23,6 +23,7 @@ mod tests;
 use super::{Kernel, Slot};
 use crate::isa::{ResultModifier, SourceModifier};
 use crate::policy::{Model, Policies};
+use std::ops::Range;
 
 /// The number of a row.
 pub(crate) type Row = u32;
@@ -86,10 +87,8 @@ pub(crate) struct RowStep {
     pub(crate) finish: RowFinish,
     /// The numbers that the results become in the end.
     pub(crate) writes: Model,
-    /// Where the operands of its first item begin.
-    pub(crate) first: usize,
-    /// How often it is done, each time with the next operands.
-    pub(crate) items: usize,
+    /// Its part of [`Plan::operands`]. It is done as often as there is what one item needs.
+    pub(crate) operands: Range<usize>,
     /// The instruction that it came from.
     pub(crate) origin: usize,
 }
@@ -205,10 +204,13 @@ impl Plan {
     pub(crate) fn items(&self, step: &RowStep) -> impl Iterator<Item = (&[Row], &[Row])> {
         let results = step.op.results();
         let width = results + step.op.sources();
-        let operands = self
-            .operands
-            .get(step.first..step.first + width * step.items);
-        (operands.unwrap_or_default().chunks_exact(width)).map(move |item| item.split_at(results))
+        (self.operands(step).chunks_exact(width)).map(move |item| item.split_at(results))
+    }
+
+    /// The rows that a step names: item by item those that it writes, then those that it reads.
+    #[inline(always)]
+    pub(crate) fn operands(&self, step: &RowStep) -> &[Row] {
+        self.operands.get(step.operands.clone()).unwrap_or_default()
     }
 
     /// The rows of a slot that the shader leaves.

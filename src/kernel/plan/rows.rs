@@ -82,8 +82,7 @@ pub(super) fn place(kernel: &Kernel, graph: &Graph) -> Plan {
             op: *op,
             finish: *finish,
             writes: *writes,
-            first,
-            items: members.len(),
+            operands: first..plan.operands.len(),
             origin: graph.origins[members[0]],
         });
     }

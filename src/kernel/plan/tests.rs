@@ -15,7 +15,9 @@ fn plan(listing: &str) -> Plan {
 fn ops(listing: &str) -> Vec<(RowOp, usize)> {
     let plan = plan(listing);
     let steps = plan.steps[plan.once..].iter();
-    steps.map(|step| (step.op, step.items)).collect()
+    steps
+        .map(|step| (step.op, plan.items(step).count()))
+        .collect()
 }
 
 #[test]
@@ -79,7 +81,7 @@ fn rows_hold_until_they_were_read() {
         let plan = Plan::new(&shader.lower(&shader.program).unwrap());
         for step in &plan.steps {
             let items: Vec<_> = plan.items(step).collect();
-            assert_eq!(items.len(), step.items);
+            assert!(!items.is_empty());
             let written = items.iter().flat_map(|(results, _)| results.iter());
             for row in written.filter(|row| **row != NO_ROW) {
                 assert!((*row as usize) < plan.rows);
