@@ -256,6 +256,11 @@ impl<'a> Stage<'a> {
         if culled {
             return;
         }
+        if let (FillMode::Solid, [a, b, c]) = (self.call.state.fill, corners) {
+            // Nearly always: nothing was cut off.
+            shapes.extend(self.triangle(vertices, [*a, *b, *c]));
+            return;
+        }
         match self.call.state.fill {
             FillMode::Solid => shapes.extend((1..corners.len() - 1).filter_map(|i| {
                 let part = fan(i);

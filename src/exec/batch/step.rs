@@ -25,7 +25,7 @@ pub(super) fn take<const N: usize>(
     use semantics as is;
     match step.op {
         RowOp::Mov => on.each(|[a]| a),
-        // Nothing is done to what an operand reads; each modifier has a loop of its own.
+        // Nothing is done to what an operand reads, denormal or not; each modifier has a loop of its own.
         RowOp::Modify(modifier) => match modifier {
             SourceModifier::Negate => on.items(|[a]| is::modify(SourceModifier::Negate, a)),
             SourceModifier::Bx2 => on.items(|[a]| is::modify(SourceModifier::Bx2, a)),
@@ -119,7 +119,7 @@ pub(super) fn take<const N: usize>(
                 let constant = index.and_then(|index| environment.constants.get(index));
                 constant.map_or(0.0, |constant| constant[usize::from(component) & 3])
             };
-            on.each(|[a0]| constant(a0));
+            on.items(|[a0]| constant(a0));
         }
     }
     if step.writes != Model::Float {

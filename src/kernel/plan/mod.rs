@@ -96,7 +96,7 @@ pub(crate) struct RowStep {
 /// What becomes of a result before it is written: shift, saturation, denormal numbers to zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum RowFinish {
-    /// Nothing that would change it.
+    /// Nothing: it cannot be a denormal number, or it is no result but what an operand reads.
     Keep,
     /// Denormal numbers become zero.
     Flush,
