@@ -38,7 +38,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Option<u32>,
     /// About how long all sides together may take, in seconds; each draws three frames at least.
-    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds, conflicts_with = "frames")]
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds, allow_hyphen_values = true, conflicts_with = "frames")]
     seconds: f64,
     /// How results are written.
     #[arg(long, value_enum, default_value_t)]

@@ -9,7 +9,7 @@
 //!
 //! Files, in the order of the data: `assemble` (vertices to primitives), `clip`, `setup` and `points_lines` (primitives to
 //! what has edges and planes on the screen), `scan` (which pixels), `interpolate` (pixel inputs), `tiles` (the loop over
-//! all of it), `merger` (into the target) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
+//! all of it), `merger` (into the target) with `plain` (its short ways) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
 
 mod assemble;
 mod capture;
@@ -20,6 +20,7 @@ mod merger;
 mod names;
 mod picture;
 mod pixel;
+mod plain;
 mod points_lines;
 mod programmable;
 mod record;
