@@ -46,6 +46,7 @@ pub mod scene;
 pub mod semantics;
 #[cfg(feature = "scene")]
 pub mod sheet;
+pub mod simd;
 pub mod syntax;
 pub mod texture;
 pub mod validate;

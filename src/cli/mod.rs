@@ -6,6 +6,7 @@
 mod adapters;
 mod asm;
 mod baked;
+mod bench;
 mod check;
 mod compare;
 mod computing;
@@ -23,6 +24,7 @@ mod frames;
 mod fuzz_match;
 mod generate;
 mod given;
+mod kernel;
 #[cfg(feature = "servers")]
 mod lsp;
 mod reflect;
@@ -62,6 +64,7 @@ struct Arguments {
 enum Command {
     Adapters(adapters::Arguments),
     Asm(asm::Arguments),
+    Bench(bench::Arguments),
     Check(check::Arguments),
     Compare(compare::Arguments),
     #[cfg(feature = "servers")]
@@ -73,6 +76,7 @@ enum Command {
     Fmt(fmt::Arguments),
     FuzzMatch(fuzz_match::Arguments),
     Generate(generate::Arguments),
+    Kernel(kernel::Arguments),
     #[cfg(feature = "servers")]
     Lsp(lsp::Arguments),
     Run(run::Arguments),
@@ -163,6 +167,7 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match command {
         Command::Adapters(arguments) => adapters::run(&arguments),
         Command::Asm(arguments) => asm::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
         Command::Dis(arguments) => dis::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Debug(arguments) => debug::run(&arguments),
@@ -176,6 +181,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Generate(arguments) => generate::run(&arguments),
         #[cfg(feature = "servers")]
         Command::Lsp(arguments) => lsp::run(&arguments),
+        Command::Kernel(arguments) => kernel::run(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Translate(arguments) => translate::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),

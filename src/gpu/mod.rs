@@ -20,7 +20,7 @@
 //! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
 //!
 //! Files, in the order of the data: `error`, `device` (adapters), `state`, `vertex`, `uniform`, `texture` (what a draw
-//! consists of), `pipeline`, `buffers`, `picture`, `ready`, `renderer`; `differences` compares pictures,
+//! consists of), `pipeline`, `buffers`, `picture`, `ready`, `renderer`, `prepared` (a frame again and again); `differences` compares pictures,
 //! `shown` makes pictures of registers, `registers` and `parting` look into one pixel, `invocations` runs shaders for single invocations, for tests, by way
 //! of the entry points of `harness`, `programs` many shaders in one pipeline.
 
@@ -33,6 +33,7 @@ mod invocations;
 mod parting;
 mod picture;
 mod pipeline;
+mod prepared;
 mod programs;
 mod ready;
 mod registers;
@@ -52,6 +53,7 @@ pub use parting::{
     SampledTexture, compare_pixel,
 };
 pub use pipeline::bind_group_layouts;
+pub use prepared::PreparedFrame;
 pub use programs::{Batch, Program, Results};
 pub use registers::PixelRegisters;
 pub use renderer::{Frame, Renderer};

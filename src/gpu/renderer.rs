@@ -24,7 +24,7 @@ use crate::wgsl::{self, Options, Points, Resource, Shown, Translation, translate
 /// Draws scenes with a device. Pipelines and samplers are kept from one picture to the next.
 #[derive(Debug)]
 pub struct Renderer<'d> {
-    device: &'d Device,
+    pub(super) device: &'d Device,
     pipelines: Pipelines,
     samplers: Samplers,
 }
@@ -98,9 +98,9 @@ impl<'d> Renderer<'d> {
 
 /// How far a frame is, and who is told.
 pub(super) struct Steps<'p> {
-    done: usize,
-    total: usize,
-    progress: &'p dyn Fn(Progress<'_>),
+    pub(super) done: usize,
+    pub(super) total: usize,
+    pub(super) progress: &'p dyn Fn(Progress<'_>),
 }
 
 /// The translation of a draw's shaders, linked, with all its states baked in; with a register in place of the colour if
@@ -181,7 +181,7 @@ pub(super) struct Drawing {
 
 impl<'r, 'd> Frame<'r, 'd> {
     /// Nothing drawn yet.
-    fn new(renderer: &'r mut Renderer<'d>, scene: &'r Scene, size: [u32; 2]) -> Self {
+    pub(super) fn new(renderer: &'r mut Renderer<'d>, scene: &'r Scene, size: [u32; 2]) -> Self {
         Self {
             renderer,
             scene,
@@ -250,7 +250,7 @@ impl<'r, 'd> Frame<'r, 'd> {
     }
 
     /// Draws passes in order and keeps what they give.
-    fn passes(
+    pub(super) fn passes(
         &mut self,
         passes: &[Pass<'_>],
         shown: Option<(usize, &[RegisterPicture])>,

@@ -5,10 +5,13 @@
 //! `texm3x3pad`, `texm3x3tex`) has become dot products and one sample, scalar instructions name the one component
 //! that they read, registers are numbered slots of one file. Every step keeps the instruction that it came from.
 //!
-//! What a step computes is in [`crate::semantics`]; [`crate::exec`] runs kernels, and the translators write them out.
+//! What a step computes is in [`crate::semantics`]; [`crate::exec`] runs kernels, and the translators write them out. A
+//! [`Plan`] is the same for many invocations at a time.
 
 mod error;
 mod lower;
+mod plan;
+mod show;
 mod slot;
 #[cfg(test)]
 mod tests;
@@ -16,6 +19,8 @@ mod texture_ops;
 
 pub use error::LowerError;
 pub use lower::{MOST_VERTEX_CONSTANTS, Options, Projection, lower};
+pub use plan::Plan;
+pub(crate) use plan::{NO_ROW, Row, RowFinish, RowOp, RowStep, UniformValue};
 pub use slot::{SLOT_COUNT, Slot};
 
 use crate::isa::{ResultModifier, SourceModifier, Swizzle, Version, WriteMask};

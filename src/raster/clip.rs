@@ -47,6 +47,8 @@ impl Plane {
 /// The planes of a draw call.
 pub(super) struct Clipper {
     planes: Vec<Plane>,
+    /// Whether nothing is cut off what lies within the view: there are no planes of the user's.
+    keeps_view: bool,
 }
 
 impl Clipper {
@@ -74,12 +76,14 @@ impl Clipper {
             through_origin([0.0, -half_height, 0.0, GUARD + center_y]),
             through_origin([0.0, half_height, 0.0, GUARD - center_y]),
         ];
+        let keeps_view = user.iter().all(Option::is_none)
+            && half_width.max(half_height) <= GUARD - center_x.max(center_y);
         planes.extend(
             user.iter()
                 .flatten()
                 .map(|plane| through_origin(plane.to_array().map(f64::from))),
         );
-        Self { planes }
+        Self { planes, keeps_view }
     }
 
     /// What is left of a primitive: its corners in order, none if nothing is. One corner is a point, two are a line, three
@@ -99,6 +103,17 @@ impl Clipper {
                     original: true,
                 }),
         );
+        // Most primitives lie within the view. A NaN does not.
+        let in_view = |p: &Vec4| {
+            p.x.abs() <= p.w
+                && p.y.abs() <= p.w
+                && p.z >= 0.0
+                && p.z <= p.w
+                && f64::from(p.w) >= SMALLEST_W
+        };
+        if self.keeps_view && corners.iter().all(in_view) {
+            return;
+        }
         for plane in &self.planes {
             let inside = |corner: &ClipVertex| plane.distance(&corner.position) >= 0.0;
             if !kept.iter().all(inside) {

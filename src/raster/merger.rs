@@ -1,6 +1,7 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
 use super::pixel::{Attribute, PixelBatch, PixelResult};
+use super::plain::{depth_alone, depths_pass, is_plain, put_plain, quad_in_tile};
 use super::record::{
     AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, FogSource, Fogged, Nobody,
     StencilTested, Watcher,
@@ -9,7 +10,7 @@ use super::state::{
     BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, FogState, RenderState,
     StencilOp, StencilState,
 };
-use super::target::{ColorFormat, TILE, Tile};
+use super::target::{ColorFormat, Tile};
 use super::{fog_unit, unit};
 
 /// Red, green, blue and alpha of the four pixels of a quad.
@@ -56,23 +57,15 @@ impl DepthTiming {
     }
 }
 
-/// Where a quad lies in its tile: the place of its first pixel.
-#[inline]
-fn tile_offset(x: i32, y: i32) -> usize {
-    // Coordinates of quads are never negative, being within the scissor.
-    let within = |v: i32| v as u32 % TILE;
-    (within(y) * TILE + within(x)) as usize
-}
-
-/// The places of the four pixels of a quad in its tile. A quad never leaves its tile, whose side is even.
-#[inline]
+/// The places of the four pixels of a quad in its tile.
+#[inline(always)]
 fn tile_pixels(x: i32, y: i32) -> [usize; 4] {
-    let at = tile_offset(x, y);
-    [at, at + 1, at + TILE as usize, at + TILE as usize + 1]
+    let at = 4 * quad_in_tile(x, y);
+    [at, at + 1, at + 2, at + 3]
 }
 
 /// The depth and stencil test of a quad, with their writes. Returns which of the pixels in `mask` pass.
-#[inline]
+#[inline(always)]
 pub(super) fn depth_stencil(
     tile: &mut Tile,
     state: &RenderState,
@@ -83,6 +76,9 @@ pub(super) fn depth_stencil(
 ) -> u8 {
     if !state.depth.enable && !state.stencil.enable {
         return mask;
+    }
+    if !state.stencil.enable && !watcher.watches() {
+        return depth_alone(tile, state, (x, y), z, mask);
     }
     let mut passed = 0;
     for (i, at) in tile_pixels(x, y).into_iter().enumerate() {
@@ -125,7 +121,7 @@ pub(super) fn depth_stencil(
 }
 
 /// Which of the pixels in `mask` pass the depth test as things stand. Writes nothing.
-#[inline]
+#[inline(always)]
 pub(super) fn depth_only(
     tile: &Tile,
     state: &RenderState,
@@ -137,9 +133,8 @@ pub(super) fn depth_only(
     if !state.depth.enable {
         return mask;
     }
-    let passes = |i: usize, at: usize| u8::from(state.depth.func.passes(z[i], tile.depth[at])) << i;
-    let at = tile_pixels(x, y);
-    (0..4).fold(0, |passed, i| passed | passes(i, at[i])) & mask
+    let stored = tile.depth.as_chunks().0.get(quad_in_tile(x, y));
+    stored.map_or(0, |stored| depths_pass(state.depth.func, z, stored)) & mask
 }
 
 /// The stencil test of the pixel in `mask`, with what it does to the stored value. Returns whether it is passed.
@@ -188,6 +183,7 @@ fn stencil(
 /// Puts a shaded batch into its tile, quad after quad in drawing order. Returns how many pixels were written.
 ///
 /// Whoever watches one pixel must be given batches of one quad.
+#[inline(always)]
 pub(super) fn merge(
     tile: &mut Tile,
     format: ColorFormat,
@@ -197,6 +193,9 @@ pub(super) fn merge(
     shaded: &PixelResult,
     watcher: &mut impl Watcher,
 ) -> u64 {
+    if !watcher.watches() && is_plain(tile, format, state, timing, shaded) {
+        return put_plain(tile, batch, shaded);
+    }
     let mut written = 0;
     for quad in 0..batch.quads {
         let lane = 4 * quad;
@@ -414,7 +413,7 @@ pub(super) fn fog(
 }
 
 /// 0 to 1 as 0 to 255, to the nearest (of two equally near ones the even).
-#[inline]
+#[inline(always)]
 pub(super) fn to_byte(value: f32) -> u8 {
     // A float of 2^23 or more holds no fractions, so the addition rounds, and leaves the integer in the lowest bits.
     (value * 255.0 + 8_388_608.0).to_bits() as u8

@@ -4,12 +4,12 @@
 //! [`draw`] takes vertices as the vertex shader left them and a [`PixelShader`], of which it only knows what it reads and
 //! what it may do. How either is executed is none of its business. [`cover`] answers for one pixel which primitives reach
 //! it and with which inputs, by the same set-up and interpolation; [`LoneTarget`] draws them again, and its [`MergeRecord`]s
-//! tell stage by stage what the merger did. [`PixelProgram`] and [`shade_vertices`] put kernels in the places of both,
+//! tell stage by stage what the merger did. [`BatchProgram`] and [`shade_vertices`] put kernels in the places of both,
 //! [`PictureProgram`] one whose registers are pictured.
 //!
 //! Files, in the order of the data: `assemble` (vertices to primitives), `clip`, `setup` and `points_lines` (primitives to
 //! what has edges and planes on the screen), `scan` (which pixels), `interpolate` (pixel inputs), `tiles` (the loop over
-//! all of it), `merger` (into the target) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
+//! all of it), `merger` (into the target) with `plain` (its short ways) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
 
 mod assemble;
 mod capture;
@@ -20,6 +20,7 @@ mod merger;
 mod names;
 mod picture;
 mod pixel;
+mod plain;
 mod points_lines;
 mod programmable;
 mod record;
@@ -43,7 +44,7 @@ pub use cover::{Fragment, Interpolation, ScreenPosition, cover};
 pub use names::UnknownName;
 pub use picture::{Look, Mark, MarkSet, RegisterPicture, Tone, View};
 pub use pixel::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader};
-pub use programmable::{PixelProgram, PixelTrace, shade_vertices, vertex_outputs};
+pub use programmable::{BatchProgram, PixelProgram, PixelTrace, shade_vertices, vertex_outputs};
 pub use record::{
     AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, Fate, FogSource, Fogged,
     MergeRecord, StencilTested, Stored,

@@ -1,5 +1,7 @@
 //! What pixel shaders are given and what they give back.
 
+use crate::isa::WriteMask;
+
 /// Pixels that are shaded together. A multiple of 4: lanes 4q to 4q+3 are the quad (x, y), (x+1, y), (x, y+1),
 /// (x+1, y+1), with x and y even.
 pub const LANES: usize = 32;
@@ -57,15 +59,12 @@ impl PixelBatch {
 
     /// Puts a quad in its place: the position of its first pixel, which of its pixels are live (bit i: lane i of the
     /// quad), their depths.
-    #[inline]
+    #[inline(always)]
     pub(super) fn place(&mut self, quad: usize, x: i32, y: i32, live: u8, z: &[f32; 4]) {
-        for (i, z) in z.iter().enumerate() {
-            let lane = 4 * quad + i;
-            self.x[lane] = x + (i & 1) as i32;
-            self.y[lane] = y + (i >> 1) as i32;
-            self.live[lane] = live >> i & 1 == 1;
-            self.z[lane] = *z;
-        }
+        self.x.as_chunks_mut().0[quad] = [x, x + 1, x, x + 1];
+        self.y.as_chunks_mut().0[quad] = [y, y, y + 1, y + 1];
+        self.live.as_chunks_mut().0[quad] = std::array::from_fn::<_, 4, _>(|i| live >> i & 1 == 1);
+        self.z.as_chunks_mut().0[quad] = *z;
     }
 }
 
@@ -125,23 +124,30 @@ impl Default for PixelResult {
     }
 }
 
-/// Which inputs a pixel shader reads; the others need not be interpolated.
+/// Which components of its inputs a pixel shader reads; the others need not be interpolated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PixelInputs {
-    /// Reads `v0`.
-    pub diffuse: bool,
-    /// Reads `v1`.
-    pub specular: bool,
-    /// Bit n: reads coordinate set n.
-    pub texcoords: u8,
+    /// Of `v0`.
+    pub diffuse: WriteMask,
+    /// Of `v1`.
+    pub specular: WriteMask,
+    /// Of each coordinate set.
+    pub texcoords: [WriteMask; 8],
 }
 
 impl PixelInputs {
     /// Everything.
     pub const ALL: Self = Self {
-        diffuse: true,
-        specular: true,
-        texcoords: 0xff,
+        diffuse: WriteMask::ALL,
+        specular: WriteMask::ALL,
+        texcoords: [WriteMask::ALL; 8],
+    };
+
+    /// Nothing.
+    pub const NONE: Self = Self {
+        diffuse: WriteMask::NONE,
+        specular: WriteMask::NONE,
+        texcoords: [WriteMask::NONE; 8],
     };
 }
 

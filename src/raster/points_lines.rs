@@ -33,18 +33,23 @@ pub(super) fn point(stage: &Stage, vertices: [u32; 3], corner: &Corner) -> Optio
     if state.sprite {
         // The shares of the vertices have no use in a point; its coordinates take their place.
         let across = |start: f64| -start / size;
-        planes.shares = [
-            Plane {
+        let [rightwards, downwards] = Planes::SHARES;
+        planes.set(
+            rightwards,
+            &Plane {
                 at: across(left),
                 dx: 1.0 / size,
                 dy: 0.0,
             },
-            Plane {
+        );
+        planes.set(
+            downwards,
+            &Plane {
                 at: across(top),
                 dx: 0.0,
                 dy: 1.0 / size,
             },
-        ];
+        );
     }
     Some(Setup {
         vertices: [index; 3],

@@ -1,11 +1,14 @@
 //! Kernels in their places around the rasterizer: vertices from a vertex shader, pixels from a pixel shader.
 
 use super::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, Vertex};
-use crate::exec::{Environment, Lanes, Machine, Observer, Trace};
-use crate::kernel::{Kernel, Slot};
+use crate::exec::{Batch, Environment, Lanes, Machine, Observer, Trace};
+use crate::isa::WriteMask;
+use crate::kernel::{Kernel, Plan, Slot};
 use crate::semantics;
+use crate::simd::{Simd, Task};
 use glam::Vec4;
 use std::cell::RefCell;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How many input registers a vertex shader has.
 const INPUTS: usize = 16;
@@ -15,9 +18,10 @@ const SETS: usize = 8;
 /// Runs a vertex shader over `count` vertices.
 ///
 /// `fetch(vertex, register)` is the content of input register `v#`, 0 to 15, already expanded to four components; it
-/// is asked only for registers that the shader reads.
+/// is asked only for registers that the shader reads. `plan` is that of `kernel`.
 pub fn shade_vertices(
     kernel: &Kernel,
+    plan: &Plan,
     environment: &Environment<'_>,
     count: usize,
     fetch: impl Fn(usize, usize) -> [f32; 4] + Sync,
@@ -26,30 +30,104 @@ pub fn shade_vertices(
         .filter_map(|i| Some((i, Slot::input(i)?)))
         .filter(|(_, slot)| !kernel.read(*slot).is_empty())
         .collect();
-    let batch = |number: usize| -> Vec<Vertex> {
+    let simd = Simd::chosen();
+    let shader = number();
+    let batch = |(number, vertices): (usize, &mut [Vertex])| {
         let first = number * LANES;
-        let live = count.saturating_sub(first).min(LANES);
-        MACHINE.with_borrow_mut(|machine| {
-            for (register, slot) in &inputs {
-                for lane in 0..live {
-                    machine.set_lane(*slot, lane, fetch(first + lane, *register));
+        let mut fetched = [[[0.0; LANES]; 4]; INPUTS];
+        for (register, _) in &inputs {
+            for lane in 0..vertices.len() {
+                let value = fetch(first + lane, *register);
+                for (lanes, number) in fetched[*register].iter_mut().zip(value) {
+                    lanes[lane] = number;
                 }
             }
-            machine.run(kernel, environment);
-            (0..live)
-                .map(|lane| vertex_outputs(kernel, |slot| machine.lane(slot, lane)))
-                .collect()
-        })
+        }
+        ROWS.with_borrow_mut(|rows| {
+            simd.run(ShadeVertices {
+                batch: rows.of(shader, plan, environment),
+                kernel,
+                plan,
+                environment,
+                fetched: &fetched,
+                vertices,
+            });
+        });
     };
-    let batches = count.div_ceil(LANES);
+    // What no output is written to is what a vertex has by itself.
+    let mut vertices = vec![Vertex::default(); count];
     #[cfg(feature = "parallel")]
-    let vertices = {
+    {
         use rayon::prelude::*;
-        (0..batches).into_par_iter().flat_map_iter(batch).collect()
-    };
+        vertices
+            .par_chunks_mut(LANES)
+            .with_min_len(8)
+            .enumerate()
+            .for_each(batch);
+    }
     #[cfg(not(feature = "parallel"))]
-    let vertices = (0..batches).flat_map(batch).collect();
+    vertices.chunks_mut(LANES).enumerate().for_each(batch);
     vertices
+}
+
+/// A batch of vertices, as something that is compiled for each set of instructions.
+struct ShadeVertices<'a, 'e> {
+    batch: &'a mut Batch<LANES>,
+    kernel: &'a Kernel,
+    plan: &'a Plan,
+    environment: &'a Environment<'e>,
+    fetched: &'a [[[f32; LANES]; 4]; INPUTS],
+    vertices: &'a mut [Vertex],
+}
+
+impl Task for ShadeVertices<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            batch,
+            kernel,
+            plan,
+            vertices,
+            ..
+        } = self;
+        batch.input(plan, |slot, component| {
+            self.fetched.get(slot.input_index()?)?.get(component)
+        });
+        batch.run_here(plan, self.environment, vertices.len());
+        for (slot, component) in [
+            (Slot::FOG, kernel.fog_component),
+            (Slot::POINT_SIZE, kernel.point_size_component),
+        ] {
+            let row = batch.output(plan, slot)[component & 3];
+            if let Some(row) = row.filter(|_| !kernel.written(slot).is_empty()) {
+                for (vertex, number) in vertices.iter_mut().zip(row) {
+                    match slot {
+                        Slot::FOG => vertex.fog = *number,
+                        _ => vertex.point_size = Some(*number),
+                    }
+                }
+            }
+        }
+        let mut take = |slot: Option<Slot>, place: fn(&mut Vertex, usize) -> &mut Vec4, n| {
+            let Some(slot) = slot.filter(|slot| !kernel.written(*slot).is_empty()) else {
+                return;
+            };
+            if let [Some(x), Some(y), Some(z), Some(w)] = batch.output(plan, slot) {
+                for (lane, vertex) in vertices.iter_mut().enumerate().take(LANES) {
+                    *place(vertex, n) = Vec4::new(x[lane], y[lane], z[lane], w[lane]);
+                }
+            }
+        };
+        take(Some(Slot::POSITION), |vertex, _| &mut vertex.position, 0);
+        take(Slot::color_output(0), |vertex, _| &mut vertex.diffuse, 0);
+        take(Slot::color_output(1), |vertex, _| &mut vertex.specular, 0);
+        for set in 0..SETS {
+            let slot = Slot::texcoord_output(set);
+            take(slot, |vertex, set| &mut vertex.texcoords[set], set);
+        }
+    }
 }
 
 /// What a vertex shader leaves to the rasterizer, its registers being what `of` gives.
@@ -75,6 +153,33 @@ pub fn vertex_outputs(kernel: &Kernel, of: impl Fn(Slot) -> [f32; 4]) -> Vertex 
 thread_local! {
     /// The registers of a batch, kept from one to the next: a kernel loads what it reads before it reads it.
     pub(super) static MACHINE: RefCell<Machine<LANES>> = RefCell::new(Machine::new());
+    /// The rows of a batch, with the constants of the shader that ran last on this thread.
+    static ROWS: RefCell<LoadedBatch> = RefCell::default();
+}
+
+/// A number that no other shader with its constants has.
+fn number() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Relaxed)
+}
+
+/// A batch and the number of the shader whose constants it holds.
+#[derive(Default)]
+struct LoadedBatch {
+    shader: u64,
+    batch: Batch<LANES>,
+}
+
+impl LoadedBatch {
+    /// The batch, loaded for the shader with this number.
+    #[inline]
+    fn of(&mut self, shader: u64, plan: &Plan, environment: &Environment<'_>) -> &mut Batch<LANES> {
+        if self.shader != shader {
+            self.batch.load(plan, environment);
+            self.shader = shader;
+        }
+        &mut self.batch
+    }
 }
 
 /// A pixel shader with everything that is set while it runs.
@@ -108,12 +213,22 @@ impl PixelProgram<'_> {
             .filter(|slot| others.contains(slot) || !self.kernel.read(*slot).is_empty())
     }
 
+    /// What is to be interpolated for the shader: the components that it reads.
+    pub fn inputs(&self) -> PixelInputs {
+        self.inputs_with(&[])
+    }
+
     /// What is to be interpolated for the shader, and for whoever looks at these slots.
     pub(super) fn inputs_with(&self, others: &[Slot]) -> PixelInputs {
+        let read = |slot: Option<Slot>| match slot {
+            Some(slot) if others.contains(&slot) => WriteMask::ALL,
+            Some(slot) => self.kernel.read(slot),
+            None => WriteMask::NONE,
+        };
         PixelInputs {
-            diffuse: self.color(0, others).is_some(),
-            specular: self.color(1, others).is_some(),
-            texcoords: (self.texcoords(others)).fold(0, |bits, (i, _)| bits | 1 << i),
+            diffuse: read(Slot::input(0)),
+            specular: read(Slot::input(1)),
+            texcoords: std::array::from_fn(|set| read(Slot::texcoord(set))),
         }
     }
 
@@ -155,6 +270,16 @@ impl PixelProgram<'_> {
         out.depth = machine.register(Slot::DEPTH)[0];
     }
 
+    /// Whether the shader replaces the depth of the pixel.
+    pub(super) fn writes_depth(&self) -> bool {
+        self.kernel.writes_depth()
+    }
+
+    /// Whether it may discard the pixel.
+    pub(super) fn may_kill(&self) -> bool {
+        self.kernel.kills()
+    }
+
     /// Runs the shader for a batch and records one lane.
     pub fn trace(&self, batch: &PixelBatch, lane: usize) -> PixelTrace {
         let mut machine = Machine::<LANES>::new();
@@ -171,26 +296,102 @@ impl PixelProgram<'_> {
     }
 }
 
-impl PixelShader for PixelProgram<'_> {
+/// A pixel shader as it runs in whole frames: the steps of its plan on many pixels at a time.
+pub struct BatchProgram<'a> {
+    program: PixelProgram<'a>,
+    plan: &'a Plan,
+    simd: Simd,
+    number: u64,
+}
+
+impl<'a> BatchProgram<'a> {
+    /// The program with the plan of its kernel.
+    pub fn new(program: PixelProgram<'a>, plan: &'a Plan) -> Self {
+        Self {
+            program,
+            plan,
+            simd: Simd::chosen(),
+            number: number(),
+        }
+    }
+}
+
+impl PixelShader for BatchProgram<'_> {
     fn inputs(&self) -> PixelInputs {
-        self.inputs_with(&[])
+        let mut inputs = PixelInputs::NONE;
+        for (slot, component) in self.plan.inputs() {
+            let read = match slot.texcoord_index() {
+                Some(set) => inputs.texcoords.get_mut(set),
+                None if slot.input_index() == Some(0) => Some(&mut inputs.diffuse),
+                None => Some(&mut inputs.specular),
+            };
+            if let Some(read) = read {
+                *read = read.or(WriteMask::component(component));
+            }
+        }
+        inputs
     }
 
-    fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {
-        MACHINE.with_borrow_mut(|machine| {
-            self.load(machine, batch);
-            machine.run(self.kernel, self.environment);
-            out.color = *machine.register(Slot::R0);
-            Self::finish(machine, out);
+    fn shade(&self, pixels: &PixelBatch, out: &mut PixelResult) {
+        let (plan, environment) = (self.plan, self.program.environment);
+        ROWS.with_borrow_mut(|rows| {
+            self.simd.run(ShadePixels {
+                batch: rows.of(self.number, plan, environment),
+                plan,
+                environment,
+                pixels,
+                out,
+            });
         });
     }
 
     fn writes_depth(&self) -> bool {
-        self.kernel.writes_depth()
+        self.program.writes_depth()
     }
 
     fn may_kill(&self) -> bool {
-        self.kernel.kills()
+        self.program.may_kill()
+    }
+}
+
+/// A batch of pixels, as something that is compiled for each set of instructions.
+struct ShadePixels<'a, 'e> {
+    batch: &'a mut Batch<LANES>,
+    plan: &'a Plan,
+    environment: &'a Environment<'e>,
+    pixels: &'a PixelBatch,
+    out: &'a mut PixelResult,
+}
+
+impl Task for ShadePixels<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            batch,
+            plan,
+            pixels,
+            out,
+            ..
+        } = self;
+        // Interpolated colours are in 0 to 1 already.
+        batch.input(plan, |slot, component| {
+            let attribute = match slot.texcoord_index() {
+                Some(set) => pixels.texcoords.get(set)?,
+                None if slot.input_index()? == 0 => &pixels.diffuse,
+                None => &pixels.specular,
+            };
+            attribute.get(component)
+        });
+        batch.run_here(plan, self.environment, 4 * pixels.quads);
+        for (channel, row) in out.color.iter_mut().zip(batch.output(plan, Slot::R0)) {
+            *channel = row.copied().unwrap_or([0.0; LANES]);
+        }
+        out.killed = *batch.killed();
+        if let [Some(depth), ..] = batch.output(plan, Slot::DEPTH) {
+            out.depth = *depth;
+        }
     }
 }
 

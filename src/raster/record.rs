@@ -224,6 +224,12 @@ pub struct ColorWritten {
 pub(super) trait Watcher {
     /// Something was done with the pixels of a quad that are in `mask`. `entry` writes it down for one of them, 0 to 3.
     fn note(&mut self, mask: u8, entry: impl FnOnce(&mut MergeRecord, usize));
+
+    /// Whether anybody does: if not, whole quads may go a shorter way to the same result.
+    #[inline(always)]
+    fn watches(&self) -> bool {
+        true
+    }
 }
 
 /// Does not want to know.
@@ -232,6 +238,11 @@ pub(super) struct Nobody;
 impl Watcher for Nobody {
     #[inline(always)]
     fn note(&mut self, _: u8, _: impl FnOnce(&mut MergeRecord, usize)) {}
+
+    #[inline(always)]
+    fn watches(&self) -> bool {
+        false
+    }
 }
 
 /// Writes down what becomes of one pixel of a batch of one quad.

@@ -49,7 +49,7 @@ impl Bounds {
     }
 
     /// Which of the pixels of the quad at (x, y) are inside.
-    #[inline]
+    #[inline(always)]
     fn mask(&self, x: i32, y: i32) -> u8 {
         let left = x >= self.x0 && x < self.x1;
         let right = x + 1 >= self.x0 && x + 1 < self.x1;
@@ -83,13 +83,13 @@ impl Edge {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(&self, x: i32, y: i32) -> i64 {
         self.a * i64::from(x) + self.b * i64::from(y) + self.c
     }
 
     /// Whether no pixel (`None`), every one (`Some(true)`) or perhaps some of a square are inside.
-    #[inline]
+    #[inline(always)]
     fn square(&self, x: i32, y: i32, side: i32) -> Option<bool> {
         let corner = self.at(x, y);
         let reach = i64::from(side - 1);
@@ -131,7 +131,7 @@ impl Shape {
 
     /// Calls `quad` with the position and the mask (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right) of every
     /// quad of which something within `bounds` is covered, each once for areas.
-    #[inline]
+    #[inline(always)]
     pub(super) fn scan(&self, bounds: &Bounds, mut quad: impl FnMut(i32, i32, u8)) {
         match self {
             Self::Rectangle => {
@@ -153,7 +153,7 @@ impl Shape {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn scan_block(
     edges: &[Edge; 3],
     bounds: &Bounds,
@@ -186,7 +186,7 @@ fn scan_block(
     }
 }
 
-#[inline]
+#[inline(always)]
 fn quad_mask(edges: &[Edge; 3], x: i32, y: i32) -> u8 {
     // A pixel is inside where no edge function is negative: where no sign bit is set.
     let mut signs = [0_i64; 4];

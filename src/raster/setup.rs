@@ -36,11 +36,6 @@ impl Plane {
             dy: 0.0,
         }
     }
-
-    #[inline]
-    pub(super) fn value(&self, x: i32, y: i32) -> f64 {
-        self.at + self.dx * f64::from(x) + self.dy * f64::from(y)
-    }
 }
 
 /// A corner on the screen.
@@ -61,20 +56,48 @@ impl Corner {
     }
 }
 
-/// What is interpolated over one shape. Attributes are not in here: they follow from the shares of the vertices.
+/// What is interpolated over one shape: four quantities side by side, as [`Planes::INVERSE_W`] and those behind it name
+/// them. Attributes are not in here: they follow from the shares of the vertices.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Planes {
-    /// `w_scale / w`, so that its greatest value at a corner is 1.
-    pub(super) inverse_w: Plane,
-    /// The shares of the second and third vertex, times `inverse_w`.
-    pub(super) shares: [Plane; 2],
-    pub(super) z: Plane,
+    /// The values at pixel (0, 0).
+    at: [f64; 4],
+    /// The changes for one pixel to the right.
+    dx: [f64; 4],
+    /// The changes for one pixel downwards.
+    dy: [f64; 4],
     pub(super) w_scale: f32,
     /// `inverse_w` is never taken smaller than this, lest it reach zero at a pixel beside the shape.
     pub(super) inverse_w_floor: f32,
 }
 
 impl Planes {
+    /// `w_scale / w`, so that its greatest value at a corner is 1.
+    pub(super) const INVERSE_W: usize = 0;
+    /// The shares of the second and third vertex, times that.
+    pub(super) const SHARES: [usize; 2] = [1, 2];
+    /// The depth.
+    pub(super) const Z: usize = 3;
+
+    /// Puts another plane in the place of a quantity.
+    pub(super) fn set(&mut self, quantity: usize, plane: &Plane) {
+        self.at[quantity] = plane.at;
+        self.dx[quantity] = plane.dx;
+        self.dy[quantity] = plane.dy;
+    }
+
+    /// All quantities at the four pixels of a quad.
+    #[inline(always)]
+    pub(super) fn quad(&self, x: i32, y: i32) -> [[f32; 4]; 4] {
+        let (x, y) = (f64::from(x), f64::from(y));
+        // The first pixel in double precision: from the screen's origin a float would lose what a small triangle needs.
+        let at: [f32; 4] =
+            std::array::from_fn(|i| (self.at[i] + self.dx[i] * x + self.dy[i] * y) as f32);
+        let dx = self.dx.map(|change| change as f32);
+        let dy = self.dy.map(|change| change as f32);
+        std::array::from_fn(|i| [at[i], at[i] + dx[i], at[i] + dy[i], at[i] + (dx[i] + dy[i])])
+    }
+
     /// From the value of any linear quantity at each of the corners to its plane.
     pub(super) fn new<const N: usize>(
         corners: &[Corner; N],
@@ -90,10 +113,12 @@ impl Planes {
                 corners[i].shares[which] * inverse_w[i]
             }))
         };
+        let z = plane(corners.map(|corner| corner.z));
+        let of = [plane(inverse_w), share(0), share(1), z];
         Self {
-            inverse_w: plane(inverse_w),
-            shares: [share(0), share(1)],
-            z: plane(corners.map(|corner| corner.z)),
+            at: of.each_ref().map(|plane| plane.at),
+            dx: of.each_ref().map(|plane| plane.dx),
+            dy: of.each_ref().map(|plane| plane.dy),
             w_scale: w_scale as f32,
             inverse_w_floor: (least / 256.0).max(1e-30) as f32,
         }
@@ -232,6 +257,11 @@ impl<'a> Stage<'a> {
         if culled {
             return;
         }
+        if let (FillMode::Solid, [a, b, c]) = (self.call.state.fill, corners) {
+            // Nearly always: nothing was cut off.
+            shapes.extend(self.triangle(vertices, [*a, *b, *c]));
+            return;
+        }
         match self.call.state.fill {
             FillMode::Solid => shapes.extend((1..corners.len() - 1).filter_map(|i| {
                 let part = fan(i);
@@ -283,7 +313,7 @@ impl<'a> Stage<'a> {
 
     /// `D3DRS_ZBIAS` brings what is drawn nearer.
     pub(super) fn biased(&self, mut planes: Planes) -> Planes {
-        planes.z.at -= f64::from(self.call.state.depth.bias) * DEPTH_BIAS_STEP;
+        planes.at[Planes::Z] -= f64::from(self.call.state.depth.bias) * DEPTH_BIAS_STEP;
         planes
     }
 

@@ -14,6 +14,13 @@ use super::state::ColorMask;
 pub(super) const TILE: u32 = 64;
 const TILE_PIXELS: usize = (TILE * TILE) as usize;
 
+/// Where in its tile a pixel lies. The four of a quad follow each other: upper left, upper right, lower left, lower right.
+#[inline(always)]
+pub(super) const fn place_in_tile(x: u32, y: u32) -> usize {
+    let (x, y) = (x % TILE, y % TILE);
+    ((y / 2 * (TILE / 2) + x / 2) * 4 + y % 2 * 2 + x % 2) as usize
+}
+
 named! {
     /// `D3DFORMAT`: what a colour target stores.
     #[derive(Default)]
@@ -131,7 +138,7 @@ impl fmt::Display for TooManyPlanes {
 
 impl std::error::Error for TooManyPlanes {}
 
-/// One tile; pixels row by row.
+/// One tile; pixels in the order of [`place_in_tile`].
 pub(super) struct Tile {
     pub(super) color: Box<[[u8; 4]]>,
     /// The colours of the further planes.
@@ -318,20 +325,15 @@ impl Target {
         let rows = picture.chunks_exact_mut(row_bytes.max(1));
         for (y, row) in (0..self.height).zip(rows) {
             let tiles = self.tiles.iter().skip((y / TILE) as usize * across);
-            let within = (y % TILE * TILE) as usize;
             for (tile, pixels) in tiles.zip(row.chunks_mut(4 * TILE as usize)) {
                 let plane = match number.checked_sub(1) {
                     None => Some(&tile.color),
                     Some(further) => tile.more.get(further),
                 };
-                let stored = plane.and_then(|plane| plane.get(within..within + TILE as usize));
-                for (pixel, stored) in pixels
-                    .as_chunks_mut()
-                    .0
-                    .iter_mut()
-                    .zip(stored.into_iter().flatten())
-                {
-                    *pixel = *stored;
+                for (x, pixel) in (0..).zip(pixels.as_chunks_mut().0) {
+                    if let Some(stored) = plane.and_then(|plane| plane.get(place_in_tile(x, y))) {
+                        *pixel = *stored;
+                    }
                 }
             }
         }
@@ -343,10 +345,7 @@ impl Target {
             return None;
         }
         let tile = y / TILE * self.tiles_across() + x / TILE;
-        Some((
-            self.tiles.get(tile as usize)?,
-            (y % TILE * TILE + x % TILE) as usize,
-        ))
+        Some((self.tiles.get(tile as usize)?, place_in_tile(x, y)))
     }
 
     /// How many tiles lie side by side.
@@ -382,10 +381,10 @@ mod tests {
     #[test]
     fn what_is_inside() {
         let mut target = Target::new(9, 4, ColorFormat::A8R8G8B8).unwrap();
-        for (at, depth) in target.tiles[0].depth.iter_mut().enumerate() {
-            let (x, y) = (at as u32 % TILE, at as u32 / TILE);
+        for (x, y) in (0..TILE * TILE).map(|at| (at % TILE, at / TILE)) {
             let step = if x > 4 { 0.125 } else { 0.0 };
-            *depth = 0.25 + x as f32 / 64.0 + y as f32 / 128.0 + step;
+            let depth = 0.25 + x as f32 / 64.0 + y as f32 / 128.0 + step;
+            target.tiles[0].depth[place_in_tile(x, y)] = depth;
         }
         for y in 0..4 {
             let inside: Vec<u32> = (0..9).filter(|x| target.inside(*x, y)).collect();

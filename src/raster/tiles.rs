@@ -15,11 +15,13 @@ use super::setup::{Room, Setup, Stage};
 use super::state::FogMode;
 use super::target::{ColorFormat, TILE, Target, Tile};
 use super::{DrawCall, DrawError};
+use crate::simd::{Simd, Task};
 
 /// Primitives that are set up before any of them is drawn. Bounds the memory of a draw call of any length.
 const CHUNK: usize = 1 << 14;
 
-/// Primitives that one core sets up at a time.
+/// Primitives that one core sets up at a time. A triangle becomes at most 16 lines: each of the seven planes of the view and
+/// the six of the user's adds one to its corners.
 const PIECE: usize = 1 << 10;
 
 /// Entries of all tiles' lists together, after which the tiles are drawn.
@@ -88,17 +90,19 @@ pub fn draw(
         },
         timing: DepthTiming::of(call.state, shader.writes_depth(), shader.may_kill()),
         format: target.format(),
+        simd: Simd::chosen(),
     };
     let across = target.tiles_across();
     let tiles = target.tiles_mut();
-    let mut lists: Vec<Vec<u32>> = vec![Vec::new(); tiles.len()];
+    let mut lists: Vec<Vec<ShapeNumber>> = vec![Vec::new(); tiles.len()];
     for first in (0..primitives.len()).step_by(CHUNK) {
         let chunk = first..primitives.len().min(first + CHUNK);
-        let (shapes, drawn) = set_up(&stage, &primitives, chunk);
+        let (pieces, drawn) = set_up(&stage, &primitives, chunk);
+        let shapes = Shapes(pieces);
         statistics.drawn += drawn;
         let mut entries = 0;
-        for (number, shape) in shapes.iter().enumerate() {
-            entries += sort_in(&mut lists, across, number as u32, shape);
+        for (number, shape) in shapes.numbered() {
+            entries += sort_in(&mut lists, across, number, shape);
             if entries > MOST_ENTRIES {
                 statistics = statistics + paint_all(&painter, tiles, across, &mut lists, &shapes);
                 entries = 0;
@@ -109,12 +113,12 @@ pub fn draw(
     Ok(statistics)
 }
 
-/// The shapes of some primitives in drawing order, and how many of the primitives have any.
+/// The shapes of some primitives in drawing order, piece by piece, and how many of the primitives have any.
 fn set_up(
     stage: &Stage,
     primitives: &Primitives,
     range: std::ops::Range<usize>,
-) -> (Vec<Setup>, u64) {
+) -> (Vec<Vec<Setup>>, u64) {
     let piece = |first: usize| {
         let mut shapes = Vec::with_capacity(PIECE);
         let (mut room, mut drawn) = (Room::default(), 0);
@@ -130,20 +134,45 @@ fn set_up(
     let pieces: Vec<_> = firsts.into_par_iter().map(piece).collect();
     #[cfg(not(feature = "parallel"))]
     let pieces: Vec<_> = firsts.into_iter().map(piece).collect();
-    let mut all = (Vec::new(), 0);
-    for (shapes, drawn) in pieces {
-        if all.0.is_empty() {
-            all.0 = shapes;
-        } else {
-            all.0.extend(shapes);
-        }
-        all.1 += drawn;
+    let drawn = pieces.iter().map(|(_, drawn)| drawn).sum();
+    (
+        pieces.into_iter().map(|(shapes, _)| shapes).collect(),
+        drawn,
+    )
+}
+
+/// The shapes of a part of a draw call.
+struct Shapes(Vec<Vec<Setup>>);
+
+/// Which of them: the piece and the place in it.
+#[derive(Clone, Copy, Default)]
+struct ShapeNumber {
+    piece: u16,
+    place: u16,
+}
+
+impl Shapes {
+    #[inline(always)]
+    fn get(&self, number: ShapeNumber) -> &Setup {
+        &self.0[usize::from(number.piece)][usize::from(number.place)]
     }
-    all
+
+    fn numbered(&self) -> impl Iterator<Item = (ShapeNumber, &Setup)> {
+        (0..).zip(&self.0).flat_map(|(piece, shapes)| {
+            (0..)
+                .zip(shapes)
+                .map(move |(place, shape)| (ShapeNumber { piece, place }, shape))
+        })
+    }
 }
 
 /// Adds a shape to the lists of the tiles that it may touch; returns to how many.
-fn sort_in(lists: &mut [Vec<u32>], across: u32, number: u32, shape: &Setup) -> usize {
+fn sort_in(
+    lists: &mut [Vec<ShapeNumber>],
+    across: u32,
+    number: ShapeNumber,
+    shape: &Setup,
+) -> usize {
     let side = TILE as i32;
     let Bounds { x0, y0, x1, y1 } = shape.bounds;
     let mut entries = 0;
@@ -166,10 +195,10 @@ fn paint_all(
     painter: &Painter,
     tiles: &mut [Tile],
     across: u32,
-    lists: &mut [Vec<u32>],
-    shapes: &[Setup],
+    lists: &mut [Vec<ShapeNumber>],
+    shapes: &Shapes,
 ) -> Statistics {
-    let paint = |(number, (tile, list)): (usize, (&mut Tile, &mut Vec<u32>))| {
+    let paint = |(number, (tile, list)): (usize, (&mut Tile, &mut Vec<ShapeNumber>))| {
         if list.is_empty() {
             return Statistics::default();
         }
@@ -184,7 +213,13 @@ fn paint_all(
             x1: x0 + TILE as i32,
             y1: y0 + TILE as i32,
         };
-        let statistics = painter.paint(tile, &area, list, shapes);
+        let statistics = painter.simd.run(Paint {
+            painter,
+            tile,
+            area,
+            list,
+            shapes,
+        });
         list.clear();
         statistics
     };
@@ -212,25 +247,41 @@ struct Painter<'a> {
     interpolator: Interpolator<'a>,
     timing: DepthTiming,
     format: ColorFormat,
+    simd: Simd,
 }
 
-impl Painter<'_> {
-    fn paint(&self, tile: &mut Tile, area: &Bounds, list: &[u32], shapes: &[Setup]) -> Statistics {
+/// A tile to be painted, as something that is compiled for each set of instructions.
+struct Paint<'a, 'b> {
+    painter: &'a Painter<'b>,
+    tile: &'a mut Tile,
+    area: Bounds,
+    list: &'a [ShapeNumber],
+    shapes: &'a Shapes,
+}
+
+impl Task for Paint<'_, '_> {
+    type Output = Statistics;
+
+    #[inline(always)]
+    fn run(self) -> Statistics {
         let mut brush = Brush {
-            painter: self,
-            tile,
-            shapes,
+            painter: self.painter,
+            tile: self.tile,
+            shapes: self.shapes,
             batch: PixelBatch::empty(),
-            owners: [0; QUADS],
+            owners: [ShapeNumber::default(); QUADS],
             shaded: PixelResult::new(),
             statistics: Statistics::default(),
         };
-        for &number in list {
-            let shape = &shapes[number as usize];
-            if let Some(bounds) = shape.bounds.intersect(area) {
-                shape
-                    .shape
-                    .scan(&bounds, |x, y, mask| brush.quad(number, x, y, mask));
+        let mut quads: Vec<(i32, i32, u8)> = Vec::new();
+        for &number in self.list {
+            let shape = self.shapes.get(number);
+            if let Some(bounds) = shape.bounds.intersect(&self.area) {
+                quads.clear();
+                (shape.shape).scan(&bounds, |x, y, mask| quads.push((x, y, mask)));
+                for &(x, y, mask) in &quads {
+                    brush.quad(number, x, y, mask);
+                }
             }
         }
         brush.flush();
@@ -239,21 +290,22 @@ impl Painter<'_> {
 }
 
 /// Collects quads of one tile and draws them a batch at a time.
-struct Brush<'a> {
-    painter: &'a Painter<'a>,
+struct Brush<'a, 'b> {
+    painter: &'a Painter<'b>,
     tile: &'a mut Tile,
-    shapes: &'a [Setup],
+    shapes: &'a Shapes,
     batch: PixelBatch,
     /// The shape of each quad in the batch.
-    owners: [u32; QUADS],
+    owners: [ShapeNumber; QUADS],
     shaded: PixelResult,
     statistics: Statistics,
 }
 
-impl Brush<'_> {
-    fn quad(&mut self, number: u32, x: i32, y: i32, mask: u8) {
+impl Brush<'_, '_> {
+    #[inline(always)]
+    fn quad(&mut self, number: ShapeNumber, x: i32, y: i32, mask: u8) {
         let state = self.painter.stage.call.state;
-        let z = depths(&self.shapes[number as usize], x, y);
+        let z = depths(self.shapes.get(number), x, y);
         let mask = match self.painter.timing {
             DepthTiming::Early => depth_stencil(self.tile, state, (x, y), &z, mask, &mut Nobody),
             DepthTiming::Late { reject: true, .. } => depth_only(self.tile, state, x, y, &z, mask),
@@ -262,15 +314,18 @@ impl Brush<'_> {
         if mask == 0 {
             return;
         }
+        // Before, not behind: there is one place only where a batch is drawn while quads come.
+        if self.batch.quads == QUADS {
+            self.flush();
+        }
         let quad = self.batch.quads;
         self.owners[quad] = number;
         self.batch.place(quad, x, y, mask, &z);
         self.batch.quads += 1;
-        if self.batch.quads == QUADS {
-            self.flush();
-        }
+        self.statistics.shaded += u64::from(mask.count_ones());
     }
 
+    #[inline(always)]
     fn flush(&mut self) {
         if self.batch.quads == 0 {
             return;
@@ -279,14 +334,10 @@ impl Brush<'_> {
         let (owners, shapes) = (&self.owners, self.shapes);
         painter
             .interpolator
-            .fill(&mut self.batch, |quad| &shapes[owners[quad] as usize]);
+            .fill(&mut self.batch, |quad| shapes.get(owners[quad]));
         self.shaded.killed.fill(false);
         painter.shader.shade(&self.batch, &mut self.shaded);
         self.statistics.quads += self.batch.quads as u64;
-        let live = self.batch.live[..4 * self.batch.quads]
-            .iter()
-            .filter(|live| **live);
-        self.statistics.shaded += live.count() as u64;
         self.statistics.written += merge(
             self.tile,
             painter.format,

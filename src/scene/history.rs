@@ -68,7 +68,7 @@ impl Rendering<'_> {
             let call = shaded.call(&draw.state, size);
             let fragments =
                 cover(&call, size.into(), (x, y)).map_err(|error| refused(draw, error))?;
-            let shader = shaded.program();
+            let shader = shaded.shader();
             for fragment in fragments {
                 let merge = pixel.draw(&draw.state, &fragment, &shader);
                 if events.len() == MAX_EVENTS {

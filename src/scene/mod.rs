@@ -6,12 +6,13 @@
 //!
 //! Files, in the order of the data: `section` and `error` (tables key by key, problems with their places), `resolve` and
 //! `files` (bytes), `load` (the whole), `transform`, `mesh`, `texture`, `shader`, `constants`, `state`, `draw`, `target`
-//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `history` (of a pixel), `show` (which registers to picture); `generate` makes pictures by formula.
+//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `frame` (drawn again and again), `history` (of a pixel), `show` (which registers to picture); `generate` makes pictures by formula.
 
 mod constants;
 pub(crate) mod draw;
 pub(crate) mod error;
 pub(crate) mod files;
+mod frame;
 pub mod generate;
 mod history;
 pub(crate) mod include;
@@ -41,6 +42,7 @@ use crate::texture::Texture;
 pub use draw::Declaration;
 pub use error::{SceneError, rules};
 pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
+pub use frame::PreparedFrame;
 pub use history::{MAX_EVENTS, PixelEvent, PixelHistory};
 pub use include::MAX_INCLUDES;
 pub use load::{MAX_DRAWS, MAX_ENTRIES};

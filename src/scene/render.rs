@@ -159,14 +159,8 @@ impl Scene {
         let mut picture = picture.map_err(RenderError::Size)?;
         let passes = self.passes([width, height]);
         let shown = self.shown(options)?;
-        let mut renderer = Renderer {
-            scene: self,
-            rendered: Rendered::new(self),
-            marks: Vec::new(),
-            done: 0,
-            total: passes.iter().map(|pass| pass.draws.len()).sum(),
-            progress,
-        };
+        let mut renderer = Renderer::new(self, progress);
+        renderer.total = passes.iter().map(|pass| pass.draws.len()).sum();
         let mut targets = Vec::new();
         for pass in &passes {
             match pass.output {
@@ -322,7 +316,8 @@ impl<'a> Rendering<'a> {
     }
 }
 
-struct Renderer<'a, 'p> {
+/// Draws the passes of a scene, one after the other.
+pub(super) struct Renderer<'a, 'p> {
     scene: &'a Scene,
     rendered: Rendered<'a>,
     marks: Vec<MarkSet>,
@@ -331,9 +326,21 @@ struct Renderer<'a, 'p> {
     progress: &'p dyn Fn(Progress<'_>),
 }
 
-impl Renderer<'_, '_> {
+impl<'a, 'p> Renderer<'a, 'p> {
+    /// Nothing drawn yet.
+    pub(super) fn new(scene: &'a Scene, progress: &'p dyn Fn(Progress<'_>)) -> Self {
+        Self {
+            scene,
+            rendered: Rendered::new(scene),
+            marks: Vec::new(),
+            done: 0,
+            total: 0,
+            progress,
+        }
+    }
+
     /// Renders a face of a target; with the last one it becomes a texture.
-    fn target(
+    pub(super) fn target(
         &mut self,
         pass: &Pass<'_>,
         number: usize,
@@ -347,7 +354,8 @@ impl Renderer<'_, '_> {
         Ok(target)
     }
 
-    fn pass(
+    /// Clears a target and draws a pass into it.
+    pub(super) fn pass(
         &mut self,
         pass: &Pass<'_>,
         shown: Option<(usize, &[RegisterPicture])>,
@@ -378,7 +386,7 @@ impl Renderer<'_, '_> {
 
     fn draw(&self, prepared: &PreparedDraw<'_>, target: &mut Target) -> Result<(), RenderError> {
         let shaded = self.rendered.shade(prepared);
-        draw_with(&shaded, &prepared.state, &shaded.program(), target)
+        draw_with(&shaded, &prepared.state, &shaded.shader(), target)
     }
 
     /// Draws the registers in place of the colour, each into its plane.

@@ -10,7 +10,7 @@ use super::prepare::{Pass, PreparedDraw};
 use super::render::RenderError;
 use super::{Scene, TextureSource};
 use crate::exec::{Environment, Stage};
-use crate::raster::{DrawCall, PixelProgram, RenderState, Vertex, shade_vertices};
+use crate::raster::{BatchProgram, DrawCall, PixelProgram, RenderState, Vertex, shade_vertices};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 
@@ -127,6 +127,7 @@ impl<'a> Rendered<'a> {
 pub(super) fn shade(draw: &PreparedDraw<'_>) -> Vec<Vertex> {
     shade_vertices(
         &draw.vertex.kernel,
+        &draw.vertex.plan,
         &draw.vertex_environment(),
         draw.mesh.vertex_count(),
         |vertex, register| draw.input(vertex, register),
@@ -157,7 +158,12 @@ impl<'a> ShadedDraw<'a> {
         &self.environment
     }
 
-    /// The pixel shader with all that is set while it runs.
+    /// The pixel shader as it draws: on many pixels at a time.
+    pub fn shader(&self) -> BatchProgram<'_> {
+        BatchProgram::new(self.program(), &self.draw.pixel.plan)
+    }
+
+    /// The pixel shader with all that is set while it runs, for whoever looks at its registers.
     pub fn program(&self) -> PixelProgram<'_> {
         PixelProgram {
             kernel: &self.draw.pixel.kernel,

@@ -10,7 +10,7 @@ use super::section::{At, Section};
 use crate::diagnostic::{Diagnostic, Rule, Span, TooLarge, any_error};
 use crate::extract::{self, Text};
 use crate::isa::ShaderKind;
-use crate::kernel::{Kernel, Options, lower};
+use crate::kernel::{Kernel, Options, Plan, lower};
 use crate::listing::{self, Checked};
 use crate::preprocess::{self, Included};
 use crate::program::Program;
@@ -22,6 +22,8 @@ pub struct Shader {
     pub program: Arc<Program>,
     /// The same, ready to run, for the texture stages of this draw.
     pub kernel: Kernel,
+    /// The kernel, ready for many vertices or pixels at a time.
+    pub plan: Plan,
 }
 
 /// The keys of one kind of shader in `[[draw]]`.
@@ -202,6 +204,7 @@ pub(crate) fn lowered(named: &Named, options: &Options, problems: &mut Problems)
     match lower(&named.value, options) {
         Ok(kernel) => Some(Shader {
             program: Arc::clone(&named.value),
+            plan: Plan::new(&kernel),
             kernel,
         }),
         Err(error) => {

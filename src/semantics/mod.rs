@@ -14,6 +14,6 @@ mod vector;
 #[cfg(test)]
 mod tests;
 
-pub use modify::{Finish, address, constant, held, modify, operand};
+pub use modify::{Finish, address, constant, flush, held, modify, operand};
 pub use scalar::*;
 pub use vector::*;

@@ -100,11 +100,17 @@ impl Finish {
     pub fn apply(self, x: f32) -> f32 {
         let x = x * self.scale;
         let x = if self.saturate { saturate(x) } else { x };
-        // Written so that NaN and both zeros pass.
-        if x.abs() < f32::MIN_POSITIVE {
-            0.0 * x
-        } else {
-            x
-        }
+        flush(x)
+    }
+}
+
+/// Denormal numbers as zero of the same sign, everything else as it is.
+#[inline(always)]
+pub fn flush(x: f32) -> f32 {
+    // Written so that NaN and both zeros pass.
+    if x.abs() < f32::MIN_POSITIVE {
+        0.0 * x
+    } else {
+        x
     }
 }

@@ -72,6 +72,7 @@ fn mean_angle(scene: &Scene) -> f32 {
     };
     let vertices = shade_vertices(
         &pane.vertex.kernel,
+        &pane.vertex.plan,
         &environment,
         pane.mesh.vertex_count(),
         |vertex, register| pane.input(vertex, register),

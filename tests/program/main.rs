@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used, reason = "a test that cannot go on has failed")]
 
 mod asm;
+mod bench;
 mod check;
 mod compare;
 mod debug;
@@ -10,6 +11,7 @@ mod eval;
 mod explain;
 mod generate;
 mod hosts;
+mod kernel;
 mod models;
 mod pictures;
 mod policies;

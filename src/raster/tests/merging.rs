@@ -222,11 +222,7 @@ struct Half(Option<f32>);
 
 impl PixelShader for Half {
     fn inputs(&self) -> PixelInputs {
-        PixelInputs {
-            diffuse: false,
-            specular: false,
-            texcoords: 0,
-        }
+        PixelInputs::NONE
     }
 
     fn shade(&self, batch: &PixelBatch, out: &mut PixelResult) {

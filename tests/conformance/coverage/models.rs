@@ -4,7 +4,7 @@ use super::Checklist;
 use super::probe::{Line, PROBES, Probe, lines};
 use texcrd::case::Case;
 use texcrd::isa::{Class, Opcode, RegisterFile, ShaderKind, SourceModifier, Version, VersionSet};
-use texcrd::kernel::{Op, Operand, Place, Slot, lower};
+use texcrd::kernel::{Op, Operand, Place, Plan, Slot, lower};
 use texcrd::policy::{Model, Policy};
 use texcrd::scene::Shader;
 use texcrd::texture::{Format, Signed, Texture, TextureKind, Weights};
@@ -400,6 +400,7 @@ fn every_value_of_every_policy() {
                     probe.notices(|case| {
                         let changed = Shader {
                             program: shader.program.clone(),
+                            plan: Plan::new(&kernel),
                             kernel,
                         };
                         match kind {

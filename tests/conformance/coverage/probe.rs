@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock, Mutex};
 use texcrd::case::{Case, Invocation, judge, observe};
 use texcrd::exec::{Environment, Lanes, Machine, Observer, Stage, bind_constants};
 use texcrd::isa::{Opcode, ResultModifier, ShaderKind, Version, WriteMask};
-use texcrd::kernel::{Kernel, Op, Operand, Options, Projection, Slot, Step, lower};
+use texcrd::kernel::{Kernel, Op, Operand, Options, Plan, Projection, Slot, Step, lower};
 use texcrd::program::{Instruction, Program, Statement};
 use texcrd::raster::vertex_outputs;
 use texcrd::scene::Shader;
@@ -103,6 +103,7 @@ impl Probe {
         };
         self.notices(|case| {
             let shader = Shader {
+                plan: Plan::new(&kernel),
                 program: Arc::new(program),
                 kernel,
             };

@@ -1,0 +1,131 @@
+//! Many invocations at a time, for whole frames: the steps of a [`Plan`] over rows of lanes.
+//!
+//! The functions of [`crate::semantics`] are called in loops over the lanes of a row; [`Simd`] says for which vector
+//! instructions the loops are compiled. The outputs have the same bits as those of a [`Machine`](super::Machine) that runs
+//! the kernel, whatever the number of lanes.
+
+mod rows;
+mod step;
+#[cfg(test)]
+mod tests;
+
+use super::environment::Environment;
+use crate::kernel::{Plan, Slot, UniformValue};
+use crate::simd::{Simd, Task};
+use rows::Rows;
+
+/// The rows of `N` invocations.
+#[derive(Clone, Debug)]
+pub struct Batch<const N: usize> {
+    rows: Rows<N>,
+    killed: [bool; N],
+}
+
+impl<const N: usize> Default for Batch<N> {
+    fn default() -> Self {
+        Self {
+            rows: Rows::default(),
+            killed: [false; N],
+        }
+    }
+}
+
+impl<const N: usize> Batch<N> {
+    /// Loads the constants, and computes what follows from them alone. Must come before [`Self::run`], and again when plan,
+    /// constants or stages have changed.
+    pub fn load(&mut self, plan: &Plan, environment: &Environment<'_>) {
+        self.rows.resize(plan.rows);
+        for uniform in &plan.uniforms {
+            let value = match uniform.value {
+                UniformValue::Literal(number) => number,
+                UniformValue::Constant(index, component) => {
+                    let constant = environment.constants.get(index as usize);
+                    constant.map_or(0.0, |constant| constant[usize::from(component) & 3])
+                }
+            };
+            self.rows.fill(uniform.row, value);
+        }
+        // Once a draw: not worth a copy of its own for each set of instructions.
+        self.steps(plan, environment, 0..plan.once, N);
+    }
+
+    /// Loads an input: `component(slot, c)` is a component of a register in all lanes. It is asked only for what the shader
+    /// needs.
+    #[inline(always)]
+    pub(crate) fn input<'r>(
+        &mut self,
+        plan: &Plan,
+        component: impl Fn(Slot, usize) -> Option<&'r [f32; N]>,
+    ) {
+        for input in &plan.inputs {
+            if let Some(values) = component(input.slot, usize::from(input.component)) {
+                self.rows.copy(input.row, values, input.flushed);
+            }
+        }
+    }
+
+    /// Runs the first `lanes` lanes on the inputs that were loaded; the others may hold anything afterwards.
+    pub fn run(&mut self, simd: Simd, plan: &Plan, environment: &Environment<'_>, lanes: usize) {
+        simd.run(Run {
+            batch: self,
+            plan,
+            environment,
+            lanes,
+        });
+    }
+
+    /// As [`Self::run`], within a task.
+    #[inline(always)]
+    pub(crate) fn run_here(&mut self, plan: &Plan, environment: &Environment<'_>, lanes: usize) {
+        self.killed = [false; N];
+        self.steps(plan, environment, plan.once..plan.steps.len(), lanes);
+    }
+
+    #[inline(always)]
+    fn steps(
+        &mut self,
+        plan: &Plan,
+        environment: &Environment<'_>,
+        steps: std::ops::Range<usize>,
+        lanes: usize,
+    ) {
+        for step in plan.steps.get(steps).unwrap_or_default() {
+            step::take(
+                &mut self.rows,
+                &mut self.killed,
+                plan,
+                step,
+                environment,
+                lanes,
+            );
+        }
+    }
+
+    /// The components that the shader leaves in a slot; of one that is no output of it nothing.
+    pub fn output(&self, plan: &Plan, slot: Slot) -> [Option<&[f32; N]>; 4] {
+        let rows = plan.output(slot).copied();
+        std::array::from_fn(|c| rows.and_then(|rows| self.rows.get(rows[c])))
+    }
+
+    /// The lanes that `texkill` discarded in the last run.
+    pub fn killed(&self) -> &[bool; N] {
+        &self.killed
+    }
+}
+
+/// A run as something that is compiled for each set of instructions.
+struct Run<'a, 'e, const N: usize> {
+    batch: &'a mut Batch<N>,
+    plan: &'a Plan,
+    environment: &'a Environment<'e>,
+    lanes: usize,
+}
+
+impl<const N: usize> Task for Run<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        (self.batch).run_here(self.plan, self.environment, self.lanes);
+    }
+}
