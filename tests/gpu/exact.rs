@@ -441,6 +441,8 @@ fn arithmetic(version: Version, seed: u64, software: bool, textures: &Textures) 
         weights: Weights {
             opcodes: out.map(|opcode| (opcode, 0)).collect(),
             textures: 0,
+            // The translation below writes definitions into the text, which nothing from outside may replace.
+            contested: 0,
             ..Weights::default()
         },
         ..generate::Options::new(version)
@@ -450,6 +452,7 @@ fn arithmetic(version: Version, seed: u64, software: bool, textures: &Textures) 
         generated,
         translation: wgsl::Options {
             exact_dots: true,
+            overridable_definitions: false,
             ..Subject::new(generate::Options::new(version), seed, textures).translation
         },
         options,

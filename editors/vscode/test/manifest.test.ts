@@ -38,7 +38,7 @@ test('everything is contributed for the one language', () => {
 
 test('launch attributes are those that the adapter takes, each with its description', () => {
   assert.deepEqual(Object.keys(launch.properties).toSorted(), [
-    'cwd', 'defines', 'dialect', 'draw', 'includes', 'model', 'pixel', 'primitive', 'program', 'set', 'shader', 'size', 'stopOnEntry', 'vertex',
+    'cwd', 'defines', 'dialect', 'draw', 'includes', 'model', 'pixel', 'policies', 'primitive', 'program', 'set', 'shader', 'size', 'stopOnEntry', 'vertex',
   ]);
   assert.deepEqual(launch.required, ['program']);
   assert.equal(launch.properties.stopOnEntry.default, true);

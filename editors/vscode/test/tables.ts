@@ -77,18 +77,18 @@ export function versions(): string[] {
   return rows(firstGroups(text, /\brow\(Version::\w+, "([\w.]+)"/g), text, /VERSIONS: \[VersionRow; (\d+)\]/);
 }
 
-/** Every value of a choice of `policy/mod.rs` by its name on the command line, in the order of the declaration. */
-function choices(type: string): string[] {
-  const block = new RegExp(`\\n    ${type} "[^"]*";\\n([^}]*)\\n}`).exec(read('policy/mod.rs'))?.[1] ?? '';
+/** Every value of a choice of a file in `policy` by its name on the command line, in the order of the declaration. */
+function choices(file: string, type: string): string[] {
+  const block = new RegExp(`\\n    ${type} "[^"]*";\\n([^}]*)\\n}`).exec(read(file))?.[1] ?? '';
   return rows(firstGroups(block, /^ {4}\w+ "(\w+)" "/gm), `[${block.split('\n').length}]`, /\[(\d+)\]/);
 }
 
 /** Every dialect. */
 export function dialects(): string[] {
-  return choices('Dialect');
+  return choices('policy/mod.rs', 'Dialect');
 }
 
 /** Every hardware model. */
 export function models(): string[] {
-  return choices('Model');
+  return choices('policy/model.rs', 'Model');
 }

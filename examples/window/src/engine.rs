@@ -7,11 +7,14 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use texcrd::gpu::{StageUniforms, Uniforms, VertexLayout, bind_group_layouts, fixed_state, wgpu};
+use texcrd::exec::STAGES;
+use texcrd::gpu::{
+    StageUniforms, Uniforms, VertexLayout, bind_group_layouts, fixed_state, stage_options, wgpu,
+};
 use texcrd::isa::ShaderKind;
 use texcrd::scene::{PreparedDraw, PreparedStage};
 use texcrd::texture::{AddressMode, Filter, MipFilter, Sampler, Texture};
-use texcrd::wgsl::{Dimension, Options, Resource, Stage, StageOptions, translate};
+use texcrd::wgsl::{Dimension, Options, Resource, Stage, translate};
 use wgpu::util::DeviceExt;
 use wgpu::{CurrentSurfaceTexture, TextureUsages};
 use winit::window::Window;
@@ -42,6 +45,8 @@ struct Item {
     groups: [wgpu::BindGroup; 2],
     /// The uniform blocks, to be written each frame.
     blocks: Vec<(Resource, wgpu::Buffer)>,
+    /// What of the texture stages stands in them.
+    stages: [StageUniforms; STAGES],
     vertices: Vec<wgpu::Buffer>,
     indices: wgpu::Buffer,
     index_count: u32,
@@ -129,16 +134,8 @@ impl Engine {
     fn item(&self, draw: &PreparedDraw<'_>, glass: &Glass) -> Result<Item, Failure> {
         let texture = |stage: &PreparedStage| glass.textures.get(stage.texture?)?.as_ref();
         let options = Options {
-            stages: draw.stages.each_ref().map(|stage| StageOptions {
-                seamless: stage.sampler.seamless,
-                address: stage.sampler.address,
-                mag: stage.sampler.mag,
-                min: stage.sampler.min,
-                mip: stage.sampler.mip,
-                max_mip_level: stage.sampler.max_mip_level,
-                max_anisotropy: stage.sampler.max_anisotropy,
-                ..StageOptions::with_texture(texture(stage).map(Texture::kind))
-            }),
+            stages: (draw.stages.each_ref())
+                .map(|stage| stage_options(texture(stage), &stage.sampler)),
             ..Options::default()
         };
         let (vertex, pixel) = (stage_of(draw.vertex, glass), stage_of(draw.pixel, glass));
@@ -238,6 +235,8 @@ impl Engine {
             pipeline,
             groups: [group(0), group(1)],
             blocks,
+            stages: (draw.stages.each_ref())
+                .map(|stage| StageUniforms::new(texture(stage), &stage.sampler, stage.bump)),
             vertices: (vertex_layout.streams())
                 .map(|stream| buffer(&stream.bytes(draw.mesh), wgpu::BufferUsages::VERTEX))
                 .collect(),
@@ -423,11 +422,7 @@ impl Engine {
                 },
                 state: &draw.state,
                 viewport: [self.config.width as f32, self.config.height as f32],
-                stages: draw.stages.each_ref().map(|stage| StageUniforms {
-                    bump: stage.bump,
-                    border: stage.sampler.border,
-                    lod_bias: stage.sampler.lod_bias,
-                }),
+                stages: item.stages,
             };
             self.queue.write_buffer(block, 0, &uniforms.block(resource));
         }
