@@ -67,6 +67,12 @@ impl Terminal {
         self.ok(&[&["send-keys", "-t", "main"], keys].concat());
     }
 
+    /// The Escape key, alone: with a key right behind it, it would be Alt and that key, as terminals send it.
+    pub(crate) fn escape(&self) {
+        self.keys(&["Escape"]);
+        std::thread::sleep(Duration::from_millis(500));
+    }
+
     /// Text, and then Enter.
     pub(crate) fn type_line(&self, text: &str) {
         self.ok(&["send-keys", "-t", "main", "-l", text]);
