@@ -60,12 +60,12 @@ fn steps_and_a_signal_in_a_real_terminal() {
     terminal.keys(&[":"]);
     terminal.type_line("print r0.x + 1");
     terminal.wait("an answer", |screen| screen.contains("1.25"));
-    terminal.escape();
+    terminal.keys(&["Escape"]);
     terminal.keys(&["?"]);
     terminal.wait("the help", |screen| {
         screen.contains("over the next instruction")
     });
-    terminal.escape();
+    terminal.keys(&["Escape"]);
     terminal.wait("the listing", at("3›add r0, r0, r0"));
 
     terminal.ok(&["resize-window", "-t", "main", "-x", "50", "-y", "10"]);

@@ -62,15 +62,12 @@ impl Terminal {
         self.ok(&["capture-pane", "-p", "-t", "main"])
     }
 
-    /// Keys by the names that tmux has for them.
+    /// Keys by the names that tmux has for them. A key right behind Escape would be Alt and that key, as terminals send it.
     pub(crate) fn keys(&self, keys: &[&str]) {
         self.ok(&[&["send-keys", "-t", "main"], keys].concat());
-    }
-
-    /// The Escape key, alone: with a key right behind it, it would be Alt and that key, as terminals send it.
-    pub(crate) fn escape(&self) {
-        self.keys(&["Escape"]);
-        std::thread::sleep(Duration::from_millis(500));
+        if keys.last() == Some(&"Escape") {
+            sleep(Duration::from_millis(500));
+        }
     }
 
     /// Text, and then Enter.
