@@ -3,7 +3,7 @@
 //! This is the one corner of the crate with `unsafe`. What makes it sound is all here: a function that is compiled for a set
 //! of instructions is only called when [`Simd::is_available`] has said that the processor has them.
 //!
-//! The code itself is plain loops over arrays; a [`Task`] is compiled once for each set by being inlined into a function
+//! The code itself is plain loops over arrays; a `Task` is compiled once for each set by being inlined into a function
 //! with that set switched on. Rust never contracts `a * b + c` nor reorders sums, so the results are the same bits in every set.
 #![allow(
     unsafe_code,
