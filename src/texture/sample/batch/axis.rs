@@ -1,6 +1,6 @@
 //! Which texels of each axis the lanes read, and where they lie in memory.
 
-use super::levels::{Detailed, LevelRows};
+use super::levels::LevelRows;
 use super::{FAR, floor, int};
 use crate::texture::AddressMode;
 use crate::texture::sample::share;
@@ -23,7 +23,7 @@ impl<const N: usize> Axis<N> {
     pub(super) fn new(
         u: &[f32; N],
         n: &[f32; N],
-        detailed: &Detailed<N>,
+        half: &[f32; N],
         mode: AddressMode,
         coarse: bool,
         odd: &mut [u32; N],
@@ -34,7 +34,6 @@ impl<const N: usize> Axis<N> {
             f: [0.0; N],
             adjacent: true,
         };
-        let half = &detailed.half;
         let mut outside = 0;
         for l in 0..N {
             let x = u[l] * n[l] - half[l];
@@ -47,7 +46,9 @@ impl<const N: usize> Axis<N> {
             outside |= u32::from(i < 0.0) | u32::from(i + 1.0 >= n[l]);
         }
         if coarse {
-            axis.f = axis.f.map(share::<true>);
+            for f in &mut axis.f {
+                *f = share::<true>(*f);
+            }
         }
         if outside != 0 {
             axis.adjacent = false;

@@ -70,7 +70,9 @@ pub(super) fn met<const N: usize>(
         for (face, odd) in quads.zip(odd.as_chunks_mut::<4>().0) {
             let [a, b, c, d] = *face;
             let several = (a ^ b) | (a ^ c) | (a ^ d);
-            *odd = odd.map(|odd| odd | several);
+            for odd in odd {
+                *odd |= several;
+            }
         }
     }
     met

@@ -63,20 +63,21 @@ impl<const N: usize> Detailed<N> {
         let largest = last.min(sampler.max_mip_level as usize) as f32;
         let last = last as f32;
         // NaN, which only a bias brings about, is the largest level.
-        let level = lambdas.map(|level| {
-            let level = if level > largest { level } else { largest };
-            if level > last { last } else { level }
-        });
+        let mut levels = lambdas;
+        for level in &mut levels {
+            *level = if *level > largest { *level } else { largest };
+            *level = if *level > last { last } else { *level };
+        }
         match sampler.mip {
             MipFilter::None => {}
             MipFilter::Point => {
-                detailed.first = level.map(|level| {
-                    let nearest = floor(level + 0.5);
-                    if nearest > last { last } else { nearest }
-                });
+                for (first, level) in detailed.first.iter_mut().zip(&levels) {
+                    let nearest = floor(*level + 0.5);
+                    *first = if nearest > last { last } else { nearest };
+                }
             }
             MipFilter::Linear => {
-                for (l, level) in level.iter().enumerate() {
+                for (l, level) in levels.iter().enumerate() {
                     let first = floor(*level);
                     detailed.first[l] = first;
                     detailed.second[l] = if first + 1.0 > last {
@@ -87,7 +88,9 @@ impl<const N: usize> Detailed<N> {
                     detailed.blend[l] = level - first;
                 }
                 if sampler.weights == Weights::EightBits {
-                    detailed.blend = detailed.blend.map(share::<true>);
+                    for blend in &mut detailed.blend {
+                        *blend = share::<true>(*blend);
+                    }
                 }
             }
         }
@@ -97,17 +100,24 @@ impl<const N: usize> Detailed<N> {
     /// Whether no lane has a linear filter.
     #[inline(always)]
     pub(super) fn is_point(&self) -> bool {
-        self.half.iter().fold(0, |any, half| any | half.to_bits()) == 0
+        !any_bits(&self.half)
     }
 
     /// Whether any lane reads two levels.
     #[inline(always)]
     pub(super) fn is_blended(&self) -> bool {
-        self.blend
-            .iter()
-            .fold(0, |any, blend| any | blend.to_bits())
-            != 0
+        any_bits(&self.blend)
     }
+}
+
+/// Whether a number is not 0 in any lane.
+#[inline(always)]
+fn any_bits<const N: usize>(lanes: &[f32; N]) -> bool {
+    let mut any = 0;
+    for lane in lanes {
+        any |= lane.to_bits();
+    }
+    any != 0
 }
 
 /// The square of the longer derivative of each lane, in texels of a level of a size.
@@ -120,20 +130,23 @@ fn squared_lengths<const N: usize>(u: &[f32; N], v: &[f32; N], size: [f32; 3]) -
         // To the other pixel of the row, and to the other one of the column.
         let row = [u.yyww() - u.xxzz(), v.yyww() - v.xxzz()];
         let column = [u.zwzw() - u.xyxy(), v.zwzw() - v.xyxy()];
-        let [row, column] = [row, column].map(|[u, v]| {
-            let (u, v) = (u * size[0], v * size[1]);
-            u * u + v * v
-        });
-        let (row, column) = (row.to_array(), column.to_array());
-        *squared = std::array::from_fn(|i| {
-            if row[i] >= column[i] {
+        let (row, column) = (length(row, size), length(column, size));
+        for (i, squared) in squared.iter_mut().enumerate() {
+            *squared = if row[i] >= column[i] {
                 row[i]
             } else {
                 column[i]
-            }
-        });
+            };
+        }
     }
     squared
+}
+
+/// The squares of lengths in texels.
+#[inline(always)]
+fn length([u, v]: [Vec4; 2], size: [f32; 3]) -> [f32; 4] {
+    let (u, v) = (u * size[0], v * size[1]);
+    (u * u + v * v).to_array()
 }
 
 /// What is needed to know of the level of each lane.
@@ -157,7 +170,10 @@ impl<const N: usize> LevelRows<N> {
             base: [0; N],
         };
         let bits = number[0].to_bits();
-        let different = number.iter().fold(0, |any, n| any | (n.to_bits() ^ bits));
+        let mut different = 0;
+        for number in number {
+            different |= number.to_bits() ^ bits;
+        }
         // A texture has fewer than 2³² texels.
         if different == 0 {
             if let Some(level) = levels.get(int(number[0]) as usize) {
@@ -166,7 +182,9 @@ impl<const N: usize> LevelRows<N> {
                 rows.height = [height as f32; N];
                 rows.stride = [width; N];
                 let (offset, face_len) = (level.offset as u32, level.face_len as u32);
-                rows.base = face.map(|face| offset.wrapping_add(face.wrapping_mul(face_len)));
+                for (base, face) in rows.base.iter_mut().zip(face) {
+                    *base = offset.wrapping_add(face.wrapping_mul(face_len));
+                }
             }
             return rows;
         }

@@ -39,6 +39,16 @@ fn int(x: f32) -> u32 {
     (x + 8_388_608.0).to_bits() & 0x007f_ffff
 }
 
+/// Whether a bit is set in any lane.
+#[inline(always)]
+fn any<const N: usize>(lanes: &[u32; N]) -> bool {
+    let mut any = 0;
+    for lane in lanes {
+        any |= lane;
+    }
+    any != 0
+}
+
 /// Where N lanes read a texture: all of a sample that does not depend on what the texels hold.
 ///
 /// It holds for every texture and sampler of which [`share_places`] says so.
@@ -102,7 +112,7 @@ impl<const N: usize> Places<N> {
             }
             TextureKind::Volume => self.odd = [1; N],
         }
-        self.any_odd = self.odd.iter().fold(0, |any, odd| any | odd) != 0;
+        self.any_odd = any(&self.odd);
     }
 
     #[inline(always)]
@@ -122,18 +132,45 @@ impl<const N: usize> Places<N> {
             false => Detailed::find(texture, sampler, u, v, &mut self.odd),
         };
         let coarse = sampler.weights == Weights::EightBits;
-        let mut grid = |level: &[f32; N], grid: &mut Grid<N>| {
-            let rows = LevelRows::new(&texture.levels, level, face);
-            let across = Axis::new(u, &rows.width, &detailed, modes[0], coarse, &mut self.odd);
-            let down = Axis::new(v, &rows.height, &detailed, modes[1], coarse, &mut self.odd);
-            grid.join(&rows, &across, &down, detailed.is_point());
+        let flat = Flat {
+            texture,
+            detailed: &detailed,
+            u,
+            v,
+            face,
+            modes,
+            coarse,
         };
-        grid(&detailed.first, &mut self.first);
+        flat.grid(&detailed.first, &mut self.odd, &mut self.first);
         self.blended = detailed.is_blended();
         if self.blended {
-            grid(&detailed.second, &mut self.second);
+            flat.grid(&detailed.second, &mut self.odd, &mut self.second);
             self.blend = detailed.blend;
         }
+    }
+}
+
+/// Coordinates in planes, and how they are read.
+struct Flat<'a, const N: usize> {
+    texture: &'a Texture,
+    detailed: &'a Detailed<N>,
+    u: &'a [f32; N],
+    v: &'a [f32; N],
+    face: &'a [u32; N],
+    modes: [AddressMode; 2],
+    coarse: bool,
+}
+
+impl<const N: usize> Flat<'_, N> {
+    /// The texels in levels by their numbers.
+    #[inline(always)]
+    fn grid(&self, level: &[f32; N], odd: &mut [u32; N], grid: &mut Grid<N>) {
+        let rows = LevelRows::new(&self.texture.levels, level, self.face);
+        let [along_u, along_v] = self.modes;
+        let (half, coarse) = (&self.detailed.half, self.coarse);
+        let across = Axis::new(self.u, &rows.width, half, along_u, coarse, odd);
+        let down = Axis::new(self.v, &rows.height, half, along_v, coarse, odd);
+        grid.join(&rows, &across, &down, self.detailed.is_point());
     }
 }
 

@@ -48,8 +48,22 @@ fn word(words: &[u32], at: u32) -> u64 {
 #[inline(always)]
 fn pair(words: &[u32], at: u32) -> u64 {
     let at = at as usize;
-    let pair = words.get(at..).and_then(|from| from.first_chunk::<2>());
-    pair.map_or(0, |[low, high]| u64::from(*low) | u64::from(*high) << 32)
+    // One comparison.
+    match words.get(at..at + 2) {
+        Some([low, high]) => u64::from(*low) | u64::from(*high) << 32,
+        _ => 0,
+    }
+}
+
+/// Both halves of each number. Two loops: the compiler runs out of registers in one.
+#[inline(always)]
+fn split<const N: usize>(pairs: &[u64; N], low: &mut [u32; N], high: &mut [u32; N]) {
+    for (low, pair) in low.iter_mut().zip(pairs) {
+        *low = *pair as u32;
+    }
+    for (high, pair) in high.iter_mut().zip(pairs) {
+        *high = (*pair >> 32) as u32;
+    }
 }
 
 impl<const N: usize> Source<N> for &[u32] {
@@ -74,12 +88,11 @@ impl<const N: usize> Source<N> for &[u32] {
                 lower[l] = word(self, lower_left[l]) | word(self, lower_right[l]) << 32;
             }
         }
-        PackedCorners([
-            upper.map(|pair| pair as u32),
-            upper.map(|pair| (pair >> 32) as u32),
-            lower.map(|pair| pair as u32),
-            lower.map(|pair| (pair >> 32) as u32),
-        ])
+        let mut corners = [[0; N]; 4];
+        let [upper_left, upper_right, lower_left, lower_right] = &mut corners;
+        split(&upper, upper_left, upper_right);
+        split(&lower, lower_left, lower_right);
+        PackedCorners(corners)
     }
 }
 
@@ -123,7 +136,14 @@ fn filtered<const N: usize, C: Corners<N>>(
     channel: usize,
     lane: usize,
 ) -> f32 {
-    let [a, b, c, d] = std::array::from_fn(|corner| corners.channel(corner, channel, lane));
+    let (a, b) = (
+        corners.channel(0, channel, lane),
+        corners.channel(1, channel, lane),
+    );
+    let (c, d) = (
+        corners.channel(2, channel, lane),
+        corners.channel(3, channel, lane),
+    );
     let (x, y) = (grid.x[lane], grid.y[lane]);
     let upper = a + x * (b - a);
     let lower = c + x * (d - c);
