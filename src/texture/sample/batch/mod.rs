@@ -41,7 +41,7 @@ fn int(x: f32) -> u32 {
 
 /// Whether a bit is set in any lane.
 #[inline(always)]
-fn any<const N: usize>(lanes: &[u32; N]) -> bool {
+fn any_lane<const N: usize>(lanes: &[u32; N]) -> bool {
     let mut any = 0;
     for lane in lanes {
         any |= lane;
@@ -112,7 +112,7 @@ impl<const N: usize> Places<N> {
             }
             TextureKind::Volume => self.odd = [1; N],
         }
-        self.any_odd = any(&self.odd);
+        self.any_odd = any_lane(&self.odd);
     }
 
     #[inline(always)]
