@@ -4,14 +4,17 @@
 //! instructions the loops are compiled. The outputs have the same bits as those of a [`Machine`](super::Machine) that runs
 //! the kernel, whatever the number of lanes.
 
+mod reach;
 mod rows;
 mod step;
 #[cfg(test)]
 mod tests;
 
 use super::environment::Environment;
-use crate::kernel::{Plan, Slot, UniformValue};
+use crate::kernel::{Plan, RowOp, Slot, UniformValue};
+use crate::semantics::flush;
 use crate::simd::{Simd, Task};
+use reach::Reach;
 use rows::Rows;
 
 /// The rows of `N` invocations.
@@ -19,6 +22,9 @@ use rows::Rows;
 pub struct Batch<const N: usize> {
     rows: Rows<N>,
     killed: [bool; N],
+    reach: Reach,
+    /// Whether all inputs, and the samples so far, are as small as `reach` wants them.
+    within: bool,
 }
 
 impl<const N: usize> Default for Batch<N> {
@@ -26,6 +32,8 @@ impl<const N: usize> Default for Batch<N> {
         Self {
             rows: Rows::default(),
             killed: [false; N],
+            reach: Reach::default(),
+            within: false,
         }
     }
 }
@@ -46,7 +54,9 @@ impl<const N: usize> Batch<N> {
             self.rows.fill(uniform.row, value);
         }
         // Once a draw: not worth a copy of its own for each set of instructions.
+        self.within = false;
         self.steps(plan, environment, 0..plan.once, N);
+        self.reach = Reach::new(plan, &self.rows.first());
     }
 
     /// Loads an input: `component(slot, c)` is a component of a register in all lanes. It is asked only for what the shader
@@ -57,10 +67,19 @@ impl<const N: usize> Batch<N> {
         plan: &Plan,
         component: impl Fn(Slot, usize) -> Option<&'r [f32; N]>,
     ) {
+        self.within = true;
         for input in &plan.inputs {
-            if let Some(values) = component(input.slot, usize::from(input.component)) {
-                self.rows.copy(input.row, values, input.flushed);
+            let Some(values) = component(input.slot, usize::from(input.component)) else {
+                continue;
+            };
+            self.within &= self.reach.admits(values);
+            let mut loaded = *values;
+            if input.flushed {
+                for number in &mut loaded {
+                    *number = flush(*number);
+                }
             }
+            self.rows.set(input.row, &loaded);
         }
     }
 
@@ -89,7 +108,9 @@ impl<const N: usize> Batch<N> {
         steps: std::ops::Range<usize>,
         lanes: usize,
     ) {
-        for step in plan.steps.get(steps).unwrap_or_default() {
+        let first = steps.start;
+        for (number, step) in (first..).zip(plan.steps.get(steps).unwrap_or_default()) {
+            let finite = self.within && self.reach.is_finite(number);
             step::take(
                 &mut self.rows,
                 &mut self.killed,
@@ -97,7 +118,14 @@ impl<const N: usize> Batch<N> {
                 step,
                 environment,
                 lanes,
+                finite,
             );
+            if let RowOp::Sample(_) = step.op {
+                let results = plan.items(step).flat_map(|(results, _)| results);
+                for row in results.filter_map(|row| self.rows.get(*row)) {
+                    self.within &= self.reach.admits(row);
+                }
+            }
         }
     }
 

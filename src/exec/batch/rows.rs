@@ -1,7 +1,6 @@
 //! Rows of lanes.
 
 use crate::kernel::{NO_ROW, Row};
-use crate::semantics::flush;
 
 /// One number for each lane.
 pub(super) type Lane<const N: usize> = [f32; N];
@@ -18,8 +17,15 @@ impl<const N: usize> Rows<N> {
         self.rows.resize(count, [0.0; N]);
     }
 
+    #[inline(always)]
     pub(super) fn get(&self, row: Row) -> Option<&Lane<N>> {
         self.rows.get(row as usize)
+    }
+
+    /// The number in the first lane of each.
+    pub(super) fn first(&self) -> Vec<f32> {
+        let first = |row: &Lane<N>| row.first().copied().unwrap_or_default();
+        self.rows.iter().map(first).collect()
     }
 
     /// The same number in all lanes of a row.
@@ -29,36 +35,33 @@ impl<const N: usize> Rows<N> {
         }
     }
 
-    /// The numbers of a row; denormal ones as zero if `flushed`.
+    /// An operation on all lanes of some rows; none if there is no such row.
+    ///
+    /// The results are values of their own, and so for all lanes the rows are read before anything is written: the compiler
+    /// need not ask whether one of them is written at the same time, and keeps the results in registers.
     #[inline(always)]
-    pub(super) fn copy(&mut self, row: Row, values: &Lane<N>, flushed: bool) {
-        if let Some(lanes) = self.rows.get_mut(row as usize) {
-            match flushed {
-                true => (lanes.iter_mut().zip(values)).for_each(|(to, from)| *to = flush(*from)),
-                false => *lanes = *values,
-            }
-        }
-    }
-
-    /// A row to write and the rows to read. A plan never reads what the same step writes.
-    #[inline(always)]
-    pub(super) fn split<const S: usize>(
-        &mut self,
-        to: Row,
+    pub(super) fn each_lane<const S: usize>(
+        &self,
         from: [Row; S],
-    ) -> Option<(&mut Lane<N>, [&Lane<N>; S])> {
-        let to = to as usize;
-        let (below, rest) = self.rows.split_at_mut_checked(to)?;
-        let (written, above) = rest.split_first_mut()?;
+        f: impl Fn([f32; S]) -> f32,
+    ) -> Option<Lane<N>> {
         let mut read = [&[0.0; N]; S];
         for (place, row) in read.iter_mut().zip(from) {
-            let row = row as usize;
-            *place = match row < to {
-                true => below.get(row)?,
-                false => above.get(row.wrapping_sub(to + 1))?,
-            };
+            *place = self.get(row)?;
         }
-        Some((written, read))
+        let mut results = [0.0; N];
+        for (lane, result) in results.iter_mut().enumerate() {
+            *result = f(read.map(|row| row[lane]));
+        }
+        Some(results)
+    }
+
+    /// Writes a row.
+    #[inline(always)]
+    pub(super) fn set(&mut self, row: Row, values: &Lane<N>) {
+        if let Some(lanes) = self.rows.get_mut(row as usize) {
+            *lanes = *values;
+        }
     }
 
     /// Copies results into their rows, each through `finish`.
