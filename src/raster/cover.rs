@@ -118,7 +118,9 @@ pub fn cover<'a>(
                 vertices: shape.vertices,
                 provoking: (interpolator.shade == ShadeMode::Flat).then_some(shape.provoking),
                 sprite: shape.sprite,
-                shares: quad_shares(&shape.planes, quad.0, quad.1).0,
+                shares: quad_shares(&shape.planes, &[quad.0], &[quad.1])
+                    .0
+                    .map(|[quad]| quad),
             },
             batch: inputs(&interpolator, &shape, quad),
             lane: ((y & 1) * 2 + (x & 1)) as usize,

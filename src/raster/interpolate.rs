@@ -17,7 +17,8 @@ use crate::isa::WriteMask;
 /// The depths of a quad, each in 0 to 1.
 #[inline(always)]
 pub(super) fn depths(setup: &Setup, x: i32, y: i32) -> [f32; 4] {
-    setup.planes.quad(x, y)[Planes::Z].map(unit)
+    let [quad] = setup.planes.quads(Planes::Z, &[x], &[y]);
+    quad.map(unit)
 }
 
 /// What of the inputs is to be computed, and how.
@@ -29,41 +30,62 @@ pub(super) struct Interpolator<'a> {
     pub(super) fog: bool,
 }
 
-/// The shares of the second and of the third vertex at the four pixels of a quad, and `w / w_scale` there.
+/// The shares of the second and of the third vertex at the pixels of quads that begin at these places, and `w / w_scale`
+/// there.
 #[inline(always)]
-pub(super) fn quad_shares(planes: &Planes, x: i32, y: i32) -> ([[f32; 4]; 2], [f32; 4]) {
-    let quantities = planes.quad(x, y);
+pub(super) fn quad_shares<const Q: usize>(
+    planes: &Planes,
+    x: &[i32; Q],
+    y: &[i32; Q],
+) -> ([[[f32; 4]; Q]; 2], [[f32; 4]; Q]) {
     let floor = planes.inverse_w_floor;
-    let w = quantities[Planes::INVERSE_W]
-        .map(|inverse_w| 1.0 / if inverse_w > floor { inverse_w } else { floor });
-    let share = |over_w: [f32; 4]| std::array::from_fn(|i| over_w[i] * w[i]);
-    (Planes::SHARES.map(|which| share(quantities[which])), w)
+    let mut w = planes.quads(Planes::INVERSE_W, x, y);
+    for w in w.as_flattened_mut() {
+        *w = 1.0 / if *w > floor { *w } else { floor };
+    }
+    let mut shares = [[[0.0; 4]; Q]; 2];
+    for (share, which) in shares.iter_mut().zip(Planes::SHARES) {
+        *share = planes.quads(which, x, y);
+        for (share, w) in share.as_flattened_mut().iter_mut().zip(w.as_flattened()) {
+            *share *= w;
+        }
+    }
+    (shares, w)
 }
 
 /// The shares of the second and of the third vertex at the pixels of a batch.
-type Shares = [[f32; LANES]; 2];
+type Shares = [[[f32; 4]; QUADS]; 2];
 
 impl Interpolator<'_> {
     /// Completes a batch whose quads have positions and depths. `setup` gives the set-up of each quad.
     #[inline(always)]
     pub(super) fn fill<'s>(&self, batch: &mut PixelBatch, setup: impl Fn(usize) -> &'s Setup) {
-        let mut shares = [[0.0; LANES]; 2];
         let quads = batch.quads.min(QUADS);
-        for quad in 0..quads {
-            let planes = &setup(quad).planes;
-            let (of_quad, w) = quad_shares(planes, batch.x[4 * quad], batch.y[4 * quad]);
-            for (share, of_quad) in shares.iter_mut().zip(of_quad) {
-                share.as_chunks_mut().0[quad] = of_quad;
+        if quads > 0 && run_end(quads, 0, &setup) == quads {
+            // Large triangles fill whole batches: loops of known length, over what there is and what there is not.
+            let shape = setup(0);
+            let (mut x, mut y) = ([0; QUADS], [0; QUADS]);
+            for (quad, (x, y)) in x.iter_mut().zip(&mut y).enumerate() {
+                (*x, *y) = (batch.x[4 * quad], batch.y[4 * quad]);
             }
-            batch.w.as_chunks_mut().0[quad] = w.map(|w| w * planes.w_scale);
+            let (shares, w) = quad_shares(&shape.planes, &x, &y);
+            for (to, w) in batch.w.iter_mut().zip(w.as_flattened()) {
+                *to = w * shape.planes.w_scale;
+            }
+            self.fill_quads(batch, shape, &shares, 0..QUADS);
+            return;
         }
-        // Quads of one shape follow each other: fetch its vertices once for all of them.
+        let mut shares = [[[0.0; 4]; QUADS]; 2];
         let mut first = 0;
         while first < quads {
-            let shape = setup(first);
-            let mut end = first + 1;
-            while end < quads && std::ptr::eq(setup(end), shape) {
-                end += 1;
+            let (shape, end) = (setup(first), run_end(quads, first, &setup));
+            for quad in first..end {
+                let (x, y) = (batch.x[4 * quad], batch.y[4 * quad]);
+                let (of_quad, [w]) = quad_shares(&shape.planes, &[x], &[y]);
+                for (share, [of_quad]) in shares.iter_mut().zip(of_quad) {
+                    share[quad] = of_quad;
+                }
+                batch.w.as_chunks_mut().0[quad] = w.map(|w| w * shape.planes.w_scale);
             }
             self.fill_quads(batch, shape, &shares, first..end);
             first = end;
@@ -80,10 +102,7 @@ impl Interpolator<'_> {
     ) {
         let vertex = |index: u32| &self.vertices[index as usize];
         let corners = setup.vertices.map(vertex);
-        let part = Part {
-            shares,
-            lanes: 4 * quads.start..4 * quads.end,
-        };
+        let part = Part { shares, quads };
         let colors = |color: fn(&Vertex) -> Vec4| match self.shade {
             ShadeMode::Gouraud => corners.map(|corner| color(corner).to_array().map(unit)),
             ShadeMode::Flat => [color(vertex(setup.provoking)).to_array().map(unit); 3],
@@ -117,10 +136,21 @@ impl Interpolator<'_> {
     }
 }
 
+/// The end of the quads from `first` on that have one shape: they follow each other.
+#[inline(always)]
+fn run_end<'s>(quads: usize, first: usize, setup: &impl Fn(usize) -> &'s Setup) -> usize {
+    let shape = setup(first);
+    let mut end = first + 1;
+    while end < quads && std::ptr::eq(setup(end), shape) {
+        end += 1;
+    }
+    end
+}
+
 /// The pixels of a batch that belong to one shape.
 struct Part<'a> {
     shares: &'a Shares,
-    lanes: Range<usize>,
+    quads: Range<usize>,
 }
 
 impl Part<'_> {
@@ -149,20 +179,19 @@ impl Part<'_> {
         let (to_second, to_third) = (a1 - a0, a2 - a0);
         let value = |second: f32, third: f32| finish(a0 + second * to_second + third * to_third);
         let [second, third] = self.shares;
-        if self.lanes == (0..LANES) {
-            // Large triangles fill whole batches: a loop of known length.
-            for lane in 0..LANES {
-                values[lane] = value(second[lane], third[lane]);
+        if self.quads == (0..QUADS) {
+            let shares = second.as_flattened().iter().zip(third.as_flattened());
+            for (to, (second, third)) in values.iter_mut().zip(shares) {
+                *to = value(*second, *third);
             }
             return;
         }
-        let shares = second
-            .as_chunks::<4>()
+        let quads = values
+            .as_chunks_mut::<4>()
             .0
-            .iter()
-            .zip(third.as_chunks::<4>().0);
-        let (first, count) = (self.lanes.start / 4, self.lanes.len() / 4);
-        let quads = values.as_chunks_mut::<4>().0.iter_mut().zip(shares);
+            .iter_mut()
+            .zip(second.iter().zip(third));
+        let (first, count) = (self.quads.start, self.quads.len());
         for (values, (second, third)) in quads.skip(first).take(count) {
             *values = std::array::from_fn(|i| value(second[i], third[i]));
         }

@@ -50,7 +50,9 @@ pub(super) fn depth_alone(
         return 0;
     };
     let passed = depths_pass(state.depth.func, z, stored) & mask;
-    if state.depth.write {
+    if state.depth.write && passed == 0xf {
+        *stored = *z;
+    } else if state.depth.write {
         for (i, stored) in stored.iter_mut().enumerate() {
             *stored = if passed >> i & 1 == 1 { z[i] } else { *stored };
         }
@@ -82,10 +84,11 @@ pub(super) fn is_plain(
 #[inline(always)]
 pub(super) fn put_plain(tile: &mut Tile, batch: &PixelBatch, shaded: &PixelResult) -> u64 {
     let [r, g, b, a] = &shaded.color;
-    let mut pixels = [0_u32; LANES];
+    let mut pixels = [[0; 4]; LANES];
     for (lane, pixel) in pixels.iter_mut().enumerate() {
         let byte = |channel: &[f32; LANES]| u32::from(to_byte(unit(channel[lane])));
-        *pixel = byte(r) | byte(g) << 8 | byte(b) << 16 | byte(a) << 24;
+        let pixels = byte(r) | byte(g) << 8 | byte(b) << 16 | byte(a) << 24;
+        *pixel = pixels.to_le_bytes();
     }
     let mut written = 0;
     let quads = pixels
@@ -98,11 +101,17 @@ pub(super) fn put_plain(tile: &mut Tile, batch: &PixelBatch, shaded: &PixelResul
         let Some(stored) = tile.color.as_chunks_mut::<4>().0.get_mut(at) else {
             continue;
         };
-        for ((stored, color), live) in stored.iter_mut().zip(colors).zip(live) {
-            let old = u32::from_le_bytes(*stored);
-            *stored = (if *live { *color } else { old }).to_le_bytes();
+        if *live == [true; 4] {
+            *stored = *colors;
+            written += 4;
+            continue;
         }
-        written += u64::from(bits(*live).count_ones());
+        for ((stored, color), live) in stored.iter_mut().zip(colors).zip(live) {
+            if *live {
+                *stored = *color;
+                written += 1;
+            }
+        }
     }
     written
 }

@@ -86,16 +86,30 @@ impl Planes {
         self.dy[quantity] = plane.dy;
     }
 
-    /// All quantities at the four pixels of a quad.
+    /// A quantity at the pixels of quads, which begin at these places.
     #[inline(always)]
-    pub(super) fn quad(&self, x: i32, y: i32) -> [[f32; 4]; 4] {
-        let (x, y) = (f64::from(x), f64::from(y));
+    pub(super) fn quads<const Q: usize>(
+        &self,
+        quantity: usize,
+        x: &[i32; Q],
+        y: &[i32; Q],
+    ) -> [[f32; 4]; Q] {
+        let (at, dx, dy) = (self.at[quantity], self.dx[quantity], self.dy[quantity]);
         // The first pixel in double precision: from the screen's origin a float would lose what a small triangle needs.
-        let at: [f32; 4] =
-            std::array::from_fn(|i| (self.at[i] + self.dx[i] * x + self.dy[i] * y) as f32);
-        let dx = self.dx.map(|change| change as f32);
-        let dy = self.dy.map(|change| change as f32);
-        std::array::from_fn(|i| [at[i], at[i] + dx[i], at[i] + dy[i], at[i] + (dx[i] + dy[i])])
+        let mut first = [0.0; Q];
+        for ((first, x), y) in first.iter_mut().zip(x).zip(y) {
+            *first = (at + dx * f64::from(*x) + dy * f64::from(*y)) as f32;
+        }
+        let (dx, dy) = (dx as f32, dy as f32);
+        // −0 changes nothing that it is added to.
+        let further = [-0.0, dx, dy, dx + dy];
+        let mut quads = [[0.0; 4]; Q];
+        for (quad, first) in quads.iter_mut().zip(first) {
+            for (pixel, further) in quad.iter_mut().zip(further) {
+                *pixel = first + further;
+            }
+        }
+        quads
     }
 
     /// From the value of any linear quantity at each of the corners to its plane.

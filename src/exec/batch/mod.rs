@@ -67,12 +67,12 @@ impl<const N: usize> Batch<N> {
         plan: &Plan,
         component: impl Fn(Slot, usize) -> Option<&'r [f32; N]>,
     ) {
-        self.within = true;
+        let mut greatest = [0; N];
         for input in &plan.inputs {
             let Some(values) = component(input.slot, usize::from(input.component)) else {
                 continue;
             };
-            self.within &= self.reach.admits(values);
+            reach::raise(&mut greatest, values);
             let mut loaded = *values;
             if input.flushed {
                 for number in &mut loaded {
@@ -81,6 +81,7 @@ impl<const N: usize> Batch<N> {
             }
             self.rows.set(input.row, &loaded);
         }
+        self.within = self.reach.admits(&greatest);
     }
 
     /// Runs the first `lanes` lanes on the inputs that were loaded; the others may hold anything afterwards.
@@ -122,9 +123,11 @@ impl<const N: usize> Batch<N> {
             );
             if let RowOp::Sample(_) = step.op {
                 let results = plan.items(step).flat_map(|(results, _)| results);
+                let mut greatest = [0; N];
                 for row in results.filter_map(|row| self.rows.get(*row)) {
-                    self.within &= self.reach.admits(row);
+                    reach::raise(&mut greatest, row);
                 }
+                self.within &= self.reach.admits(&greatest);
             }
         }
     }

@@ -42,24 +42,34 @@ impl Reach {
         self.finite.get(step).copied().unwrap_or_default()
     }
 
-    /// Whether all lanes of an input are within the limit; NaN is not.
+    /// Whether numbers are within the limit: `greatest` is what [`raise`] has made of them.
     #[inline(always)]
-    pub(super) fn admits<const N: usize>(&self, lanes: &[f32; N]) -> bool {
-        // Magnitudes are in the order of their bits, NaN behind infinity.
-        let greatest = lanes.iter().fold(0, |greatest, number| {
-            let bits = number.abs().to_bits();
-            if bits > greatest { bits } else { greatest }
-        });
-        greatest <= self.limit.to_bits()
+    pub(super) fn admits<const N: usize>(&self, greatest: &[u32; N]) -> bool {
+        greatest.iter().fold(0, |a, b| a.max(*b)) <= self.limit.to_bits()
+    }
+}
+
+/// Raises magnitudes to those of some numbers. They are told by their bits, which have the same order, with NaN behind
+/// infinity.
+#[inline(always)]
+pub(super) fn raise<const N: usize>(greatest: &mut [u32; N], numbers: &[f32; N]) {
+    for (greatest, number) in greatest.iter_mut().zip(numbers) {
+        *greatest = (*greatest).max(number.abs().to_bits());
     }
 }
 
 /// For each step, whether all that it reads is finite.
 fn steps(plan: &Plan, uniform: &[f32], limit: f32) -> Vec<bool> {
-    let bounded = |number: f32| if number <= MOST { number } else { f32::INFINITY };
+    let bounded = |number: f32| {
+        if number <= MOST {
+            number
+        } else {
+            f32::INFINITY
+        }
+    };
     let mut rows: Vec<f32> = uniform.iter().map(|number| bounded(number.abs())).collect();
     rows.resize(plan.rows, f32::INFINITY);
-    let mut set = |row: u32, bound: f32, rows: &mut Vec<f32>| {
+    let set = |row: u32, bound: f32, rows: &mut Vec<f32>| {
         if let Some(place) = rows.get_mut(row as usize) {
             *place = bounded(bound);
         }
@@ -126,10 +136,9 @@ fn operation(op: RowOp, of: &[f32]) -> f32 {
 /// A bound behind a source modifier.
 fn modified(modifier: SourceModifier, of: f32) -> f32 {
     match modifier {
-        SourceModifier::None
-        | SourceModifier::Dz
-        | SourceModifier::Dw
-        | SourceModifier::Negate => of,
+        SourceModifier::None | SourceModifier::Dz | SourceModifier::Dw | SourceModifier::Negate => {
+            of
+        }
         SourceModifier::Bias | SourceModifier::BiasNegate => of + 0.5,
         SourceModifier::Bx2 | SourceModifier::Bx2Negate => 2.0 * (of + 0.5),
         SourceModifier::Complement => 1.0 + of,

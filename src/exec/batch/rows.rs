@@ -5,33 +5,38 @@ use crate::kernel::{NO_ROW, Row};
 /// One number for each lane.
 pub(super) type Lane<const N: usize> = [f32; N];
 
+/// A row where no vector of it lies in two lines of the cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Aligned<const N: usize>(Lane<N>);
+
 /// All rows of a batch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rows<const N: usize> {
-    rows: Vec<Lane<N>>,
+    rows: Vec<Aligned<N>>,
 }
 
 impl<const N: usize> Rows<N> {
     /// Makes room for so many.
     pub(super) fn resize(&mut self, count: usize) {
-        self.rows.resize(count, [0.0; N]);
+        self.rows.resize(count, Aligned([0.0; N]));
     }
 
     #[inline(always)]
     pub(super) fn get(&self, row: Row) -> Option<&Lane<N>> {
-        self.rows.get(row as usize)
+        self.rows.get(row as usize).map(|row| &row.0)
     }
 
     /// The number in the first lane of each.
     pub(super) fn first(&self) -> Vec<f32> {
-        let first = |row: &Lane<N>| row.first().copied().unwrap_or_default();
+        let first = |row: &Aligned<N>| row.0.first().copied().unwrap_or_default();
         self.rows.iter().map(first).collect()
     }
 
     /// The same number in all lanes of a row.
     pub(super) fn fill(&mut self, row: Row, number: f32) {
         if let Some(lanes) = self.rows.get_mut(row as usize) {
-            *lanes = [number; N];
+            lanes.0 = [number; N];
         }
     }
 
@@ -60,7 +65,7 @@ impl<const N: usize> Rows<N> {
     #[inline(always)]
     pub(super) fn set(&mut self, row: Row, values: &Lane<N>) {
         if let Some(lanes) = self.rows.get_mut(row as usize) {
-            *lanes = *values;
+            lanes.0 = *values;
         }
     }
 
@@ -72,7 +77,7 @@ impl<const N: usize> Rows<N> {
                 continue;
             }
             if let Some(lanes) = self.rows.get_mut(*row as usize) {
-                for (to, from) in lanes.iter_mut().zip(values) {
+                for (to, from) in lanes.0.iter_mut().zip(values) {
                     *to = finish(*from);
                 }
             }
@@ -83,7 +88,7 @@ impl<const N: usize> Rows<N> {
     #[inline(always)]
     pub(super) fn update(&mut self, row: Row, change: impl Fn(f32) -> f32) {
         if let Some(lanes) = self.rows.get_mut(row as usize) {
-            for number in lanes {
+            for number in &mut lanes.0 {
                 *number = change(*number);
             }
         }
