@@ -65,9 +65,25 @@ impl PixelBatch {
     pub(super) fn place(&mut self, quad: usize, x: i32, y: i32, live: u8, z: &[f32; 4]) {
         self.x.as_chunks_mut().0[quad] = [x, x + 1, x, x + 1];
         self.y.as_chunks_mut().0[quad] = [y, y, y + 1, y + 1];
-        self.live.as_chunks_mut().0[quad] = std::array::from_fn::<_, 4, _>(|i| live >> i & 1 == 1);
+        self.live.as_chunks_mut().0[quad] = lanes(live);
         self.z.as_chunks_mut().0[quad] = *z;
     }
+}
+
+/// Which of four lanes a mask has: bit i is lane i.
+#[inline(always)]
+pub(super) const fn lanes(mask: u8) -> [bool; 4] {
+    // Looked up: it is asked for every quad.
+    const LANES_OF: [[bool; 4]; 16] = {
+        let mut all = [[false; 4]; 16];
+        let mut mask = 0;
+        while mask < 16 {
+            all[mask] = [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0, mask & 8 != 0];
+            mask += 1;
+        }
+        all
+    };
+    LANES_OF[(mask & 0xf) as usize]
 }
 
 /// What became of the pixels of a batch. It comes to [`PixelShader::shade`] with nothing killed.
