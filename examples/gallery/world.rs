@@ -91,7 +91,7 @@ impl<'a> World<'a> {
         }
         let (draw, vertices) = self.triangles[hit.triangle];
         let draw = &self.draws[draw];
-        let [a, b, c] = vertices.map(|vertex| &draw.vertices()[vertex]);
+        let [a, b, c] = vertices.map(|vertex| draw.vertices().get(vertex).unwrap_or_default());
         let [s, t] = hit.shares;
         let mix = |a: Vec4, b: Vec4, c: Vec4| -> DVec4 {
             let [a, b, c] = [a, b, c].map(|v| v.as_dvec4());

@@ -4,7 +4,7 @@ use super::environment::{Environment, STAGES};
 use crate::isa::{SourceModifier, Swizzle, WriteMask};
 use crate::kernel::{Kernel, Op, Operand, Place, SLOT_COUNT, Slot, Step};
 use crate::policy::{Model, Policies, ZeroProduct};
-use crate::semantics::{self, Finish};
+use crate::semantics::{self, Finish, Ieee, Products, ZeroWins};
 use crate::texture::sample_quads;
 use std::ops::Range;
 
@@ -284,8 +284,8 @@ impl<const N: usize> Machine<N> {
             Op::Sub => each(mask, |k, l| a[k][l] - b[k][l]),
             Op::Mul | Op::Mad | Op::Lrp | Op::Dp3 | Op::Dp4 | Op::Lit | Op::Dst => {
                 match policies.zero_product {
-                    ZeroProduct::Zero => products::<N, false>(step, sources),
-                    ZeroProduct::Ieee => products::<N, true>(step, sources),
+                    ZeroProduct::Zero => products::<N, ZeroWins>(step, sources),
+                    ZeroProduct::Ieee => products::<N, Ieee>(step, sources),
                 }
             }
             Op::Min => each(mask, |k, l| semantics::min(a[k][l], b[k][l])),
@@ -341,18 +341,18 @@ impl<const N: usize> Machine<N> {
 
 /// The operations that are made of products.
 #[inline]
-fn products<const N: usize, const IEEE: bool>(step: &Step, sources: &[Lanes<N>; 3]) -> Lanes<N> {
-    use semantics::{dp3, dp4, dst, lit, lrp, mad, product};
+fn products<const N: usize, P: Products>(step: &Step, sources: &[Lanes<N>; 3]) -> Lanes<N> {
+    use semantics::{dp3, dp4, dst, lit, lrp, mad};
     let mask = step.mask;
     let [a, b, c] = sources;
     match step.op {
-        Op::Mad => each(mask, |k, l| mad::<IEEE>(a[k][l], b[k][l], c[k][l])),
-        Op::Lrp => each(mask, |k, l| lrp::<IEEE>(a[k][l], b[k][l], c[k][l])),
-        Op::Dp3 => replicate(|l| dp3::<IEEE>(xyz(a, l), xyz(b, l))),
-        Op::Dp4 => replicate(|l| dp4::<IEEE>(xyzw(a, l), xyzw(b, l))),
-        Op::Lit => vector(|l| lit::<IEEE>(xyzw(a, l))),
-        Op::Dst => vector(|l| dst::<IEEE>(xyzw(a, l), xyzw(b, l))),
-        _ => each(mask, |k, l| product::<IEEE>(a[k][l], b[k][l])),
+        Op::Mad => each(mask, |k, l| mad::<P>(a[k][l], b[k][l], c[k][l])),
+        Op::Lrp => each(mask, |k, l| lrp::<P>(a[k][l], b[k][l], c[k][l])),
+        Op::Dp3 => replicate(|l| dp3::<P>(xyz(a, l), xyz(b, l))),
+        Op::Dp4 => replicate(|l| dp4::<P>(xyzw(a, l), xyzw(b, l))),
+        Op::Lit => vector(|l| lit::<P>(xyzw(a, l))),
+        Op::Dst => vector(|l| dst::<P>(xyzw(a, l), xyzw(b, l))),
+        _ => each(mask, |k, l| P::product(a[k][l], b[k][l])),
     }
 }
 

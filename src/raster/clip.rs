@@ -5,7 +5,9 @@
 
 use glam::Vec4;
 
+use super::pixel::LANES;
 use super::state::Viewport;
+use super::vertices::Row;
 
 /// How far from the origin screen coordinates may be, in pixels.
 ///
@@ -38,6 +40,7 @@ struct Plane {
 }
 
 impl Plane {
+    #[inline(always)]
     fn distance(&self, p: &[f64; 4]) -> f64 {
         let n = &self.normal;
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3] * p[3] + self.offset
@@ -52,6 +55,9 @@ pub(super) struct Clipper {
 }
 
 impl Clipper {
+    /// Of [`Self::outside`]: a position that is not finite. There are at most 7 + 6 planes.
+    pub(super) const BROKEN: u16 = 1 << 15;
+
     pub(super) fn new(viewport: &Viewport, user: &[Option<Vec4>]) -> Self {
         let through_origin = |normal| Plane {
             normal,
@@ -84,6 +90,27 @@ impl Clipper {
                 .map(|plane| through_origin(plane.to_array().map(f64::from))),
         );
         Self { planes, keeps_view }
+    }
+
+    /// On which planes' outer sides the vertices of a block are, a bit a plane, from their x, y, z and w; [`Self::BROKEN`] of
+    /// positions that are not finite. What has no bit at any of its vertices is kept by [`Self::clip`] as it is, and nothing
+    /// is of what has the same one at all of them.
+    #[inline(always)]
+    pub(super) fn outside(&self, positions: &[Row; 4]) -> [u16; LANES] {
+        let mut outside = [0; LANES];
+        for (lane, outside) in outside.iter_mut().enumerate() {
+            let finite = positions.iter().all(|row| row[lane].is_finite());
+            *outside = if finite { 0 } else { Self::BROKEN };
+        }
+        for (number, plane) in self.planes.iter().enumerate() {
+            for (lane, outside) in outside.iter_mut().enumerate() {
+                let distance = plane.distance(&positions.map(|row| f64::from(row[lane])));
+                // A plane of NaN keeps nothing.
+                let inside = distance >= 0.0;
+                *outside |= u16::from(!inside) << number;
+            }
+        }
+        outside
     }
 
     /// What is left of a primitive: its corners in order, none if nothing is. One corner is a point, two are a line, three

@@ -1,7 +1,9 @@
 //! For a debugger: what reaches one pixel.
 
+use std::rc::Rc;
+
 use super::assemble::Primitives;
-use super::interpolate::{Interpolator, depths, quad_shares};
+use super::interpolate::{Interpolator, Shares, depths};
 use super::pixel::{PixelBatch, PixelInputs};
 use super::scan::Bounds;
 use super::setup::{Room, Setup, Stage};
@@ -93,49 +95,61 @@ pub fn cover<'a>(
         x1: quad.0.saturating_add(2),
         y1: quad.1.saturating_add(2),
     });
-    let interpolator = Interpolator {
-        vertices: call.vertices,
-        inputs: PixelInputs::ALL,
-        shade: call.state.shade,
-        fog: true,
-    };
+    let shade = call.state.shade;
+    let interpolator = Rc::new(Interpolator::new(
+        call.vertices,
+        &PixelInputs::ALL,
+        shade,
+        true,
+    ));
     let mut room = Room::default();
     let fragments = (0..primitives.len()).flat_map(move |primitive| {
         let vertices = primitives.get(primitive);
         let mut shapes = Vec::new();
         stage.primitive(vertices, &mut room, &mut shapes);
         shapes.retain(|shape| shape.bounds.contains(x, y) && shape.shape.covers(x, y));
+        let interpolator = Rc::clone(&interpolator);
         let screen = match shapes.is_empty() {
             true => [None; 3],
             false => std::array::from_fn(|corner| room.screen(corner)),
         };
-        (shapes.into_iter().enumerate()).map(move |(part, shape)| Fragment {
-            primitive,
-            part,
-            vertices,
-            screen,
-            interpolation: Interpolation {
-                vertices: shape.vertices,
-                provoking: (interpolator.shade == ShadeMode::Flat).then_some(shape.provoking),
-                sprite: shape.sprite,
-                shares: quad_shares(&shape.planes, quad.0, quad.1).0,
-            },
-            batch: inputs(&interpolator, &shape, quad),
-            lane: ((y & 1) * 2 + (x & 1)) as usize,
+        (shapes.into_iter().enumerate()).map(move |(part, shape)| {
+            let (batch, shares) = inputs(&interpolator, &shape, quad);
+            Fragment {
+                primitive,
+                part,
+                vertices,
+                screen,
+                interpolation: Interpolation {
+                    vertices: shape.owner.vertices,
+                    provoking: (shade == ShadeMode::Flat).then_some(shape.owner.provoking),
+                    sprite: shape.owner.sprite,
+                    shares,
+                },
+                batch,
+                lane: ((y & 1) * 2 + (x & 1)) as usize,
+            }
         })
     });
     Ok(fragments)
 }
 
-/// The inputs of a quad.
-fn inputs(interpolator: &Interpolator, shape: &Setup, (left, top): (i32, i32)) -> Box<PixelBatch> {
+/// The inputs of a quad, and the shares of the vertices there.
+fn inputs(
+    interpolator: &Interpolator,
+    shape: &Setup,
+    (left, top): (i32, i32),
+) -> (Box<PixelBatch>, [[f32; 4]; 2]) {
     let mask = (0..4).fold(0, |mask, i| {
         let (x, y) = (left + (i & 1), top + (i >> 1));
         mask | u8::from(shape.bounds.contains(x, y) && shape.shape.covers(x, y)) << i
     });
-    let mut batch = Box::new(PixelBatch::empty());
-    batch.place(0, left, top, mask, &depths(shape, left, top));
+    let quantities = shape.planes.quad(left, top);
+    let (mut batch, mut shares) = (Box::new(PixelBatch::empty()), Shares::empty());
+    batch.place(0, left, top, mask, &depths(&quantities));
+    shares.begin(shape.owner);
+    shares.place(0, &shape.planes, &quantities);
     batch.quads = 1;
-    interpolator.fill(&mut batch, |_| shape);
-    batch
+    interpolator.fill(&mut batch, &mut shares);
+    (batch, shares.of_quad(0))
 }

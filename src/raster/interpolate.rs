@@ -6,165 +6,216 @@
 
 use std::ops::Range;
 
-use glam::Vec4;
-
-use super::pixel::{Attribute, LANES, PixelBatch, PixelInputs, QUADS};
-use super::setup::{Planes, Setup};
+use super::pixel::{LANES, PixelBatch, PixelInputs, QUADS};
+use super::setup::{Owner, Planes, Quantities};
 use super::state::ShadeMode;
-use super::{Vertex, fog_unit, unit};
+use super::vertices::{Column, Output, Vertices};
+use super::{fog_unit, unit};
 use crate::isa::WriteMask;
 
 /// The depths of a quad, each in 0 to 1.
 #[inline(always)]
-pub(super) fn depths(setup: &Setup, x: i32, y: i32) -> [f32; 4] {
-    setup.planes.quad(x, y)[Planes::Z].map(unit)
+pub(super) fn depths(quantities: &Quantities) -> [f32; 4] {
+    quantities[Planes::Z].map(unit)
 }
 
 /// What of the inputs is to be computed, and how.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Interpolator<'a> {
-    pub(super) vertices: &'a [Vertex],
-    pub(super) inputs: PixelInputs,
-    pub(super) shade: ShadeMode,
-    pub(super) fog: bool,
+    shade: ShadeMode,
+    wanted: Vec<Wanted<'a>>,
 }
 
-/// The shares of the second and of the third vertex at the four pixels of a quad, and `w / w_scale` there.
-#[inline(always)]
-pub(super) fn quad_shares(planes: &Planes, x: i32, y: i32) -> ([[f32; 4]; 2], [f32; 4]) {
-    let quantities = planes.quad(x, y);
-    let floor = planes.inverse_w_floor;
-    let w = quantities[Planes::INVERSE_W]
-        .map(|inverse_w| 1.0 / if inverse_w > floor { inverse_w } else { floor });
-    let share = |over_w: [f32; 4]| std::array::from_fn(|i| over_w[i] * w[i]);
-    (Planes::SHARES.map(|which| share(quantities[which])), w)
+/// A component that is interpolated, and where the vertices have it.
+struct Wanted<'a> {
+    output: Output,
+    component: usize,
+    ends: Column<'a>,
 }
 
-/// The shares of the second and of the third vertex at the pixels of a batch.
-type Shares = [[f32; LANES]; 2];
+/// The shares of the second and of the third vertex at the pixels of a batch, and whose vertices these are.
+pub(super) struct Shares {
+    /// Times [`Self::inverse_w`] until [`Interpolator::fill`] divides them.
+    of: [[f32; LANES]; 2],
+    inverse_w: [f32; LANES],
+    w_scale: [f32; LANES],
+    /// The shapes of the batch in order, each with its first quad.
+    runs: [(usize, Owner); QUADS],
+    count: usize,
+    /// The shape of the quads that come next, and whether it is the last of the runs.
+    owner: Owner,
+    open: bool,
+}
 
-impl Interpolator<'_> {
-    /// Completes a batch whose quads have positions and depths. `setup` gives the set-up of each quad.
+impl Shares {
+    /// Of a batch of no quads.
     #[inline(always)]
-    pub(super) fn fill<'s>(&self, batch: &mut PixelBatch, setup: impl Fn(usize) -> &'s Setup) {
-        let mut shares = [[0.0; LANES]; 2];
-        let quads = batch.quads.min(QUADS);
-        for quad in 0..quads {
-            let planes = &setup(quad).planes;
-            let (of_quad, w) = quad_shares(planes, batch.x[4 * quad], batch.y[4 * quad]);
-            for (share, of_quad) in shares.iter_mut().zip(of_quad) {
-                share.as_chunks_mut().0[quad] = of_quad;
-            }
-            batch.w.as_chunks_mut().0[quad] = w.map(|w| w * planes.w_scale);
+    pub(super) fn empty() -> Self {
+        Self {
+            of: [[0.0; LANES]; 2],
+            inverse_w: [1.0; LANES],
+            w_scale: [1.0; LANES],
+            runs: [(0, Owner::default()); QUADS],
+            count: 0,
+            owner: Owner::default(),
+            open: false,
         }
-        // Quads of one shape follow each other: fetch its vertices once for all of them.
-        let mut first = 0;
-        while first < quads {
-            let shape = setup(first);
-            let mut end = first + 1;
-            while end < quads && std::ptr::eq(setup(end), shape) {
-                end += 1;
-            }
-            self.fill_quads(batch, shape, &shares, first..end);
-            first = end;
+    }
+
+    /// From here on quads are those of another shape.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, owner: Owner) {
+        self.owner = owner;
+        self.open = false;
+    }
+
+    /// Puts a quad in its place.
+    #[inline(always)]
+    pub(super) fn place(&mut self, quad: usize, planes: &Planes, quantities: &Quantities) {
+        for (share, which) in self.of.iter_mut().zip(Planes::SHARES) {
+            share.as_chunks_mut().0[quad] = quantities[which];
         }
+        self.inverse_w.as_chunks_mut().0[quad] = planes.inverse_w(quantities);
+        self.w_scale.as_chunks_mut().0[quad] = [planes.w_scale; 4];
+        if !self.open {
+            self.runs[self.count] = (quad, self.owner);
+            self.count += 1;
+            self.open = true;
+        }
+    }
+
+    /// The shares at the pixels of a quad, once the batch is filled.
+    pub(super) fn of_quad(&self, quad: usize) -> [[f32; 4]; 2] {
+        self.of.map(|share| share.as_chunks().0[quad])
+    }
+
+    /// Divides all shares by w; the batch is told the w.
+    #[inline(always)]
+    fn divide(&mut self, batch: &mut PixelBatch) {
+        let [second, third] = &mut self.of;
+        for lane in 0..LANES {
+            let w = 1.0 / self.inverse_w[lane];
+            second[lane] *= w;
+            third[lane] *= w;
+            batch.w[lane] = w * self.w_scale[lane];
+        }
+    }
+}
+
+impl<'a> Interpolator<'a> {
+    /// For these inputs, and the fog of the vertices.
+    pub(super) fn new(
+        vertices: &'a Vertices,
+        inputs: &PixelInputs,
+        shade: ShadeMode,
+        fog: bool,
+    ) -> Self {
+        let colors = [
+            (Output::Diffuse, inputs.diffuse),
+            (Output::Specular, inputs.specular),
+        ];
+        let sets = { inputs.texcoords.iter().enumerate() }
+            .map(|(set, components)| (Output::Texcoords(set), *components));
+        let fog = fog.then_some((Output::Fog, WriteMask::component(0)));
+        let wanted =
+            (colors.into_iter().chain(sets).chain(fog)).flat_map(|(output, components)| {
+                { components.components() }.map(move |component| Wanted {
+                    output,
+                    component,
+                    ends: vertices.column(output, component),
+                })
+            });
+        Self {
+            shade,
+            wanted: wanted.collect(),
+        }
+    }
+
+    /// Completes a batch whose quads are in their places. The shares are ready for the next one.
+    #[inline(always)]
+    pub(super) fn fill(&self, batch: &mut PixelBatch, shares: &mut Shares) {
+        shares.divide(batch);
+        let mut end = batch.quads.min(QUADS);
+        // The vertices of a shape are fetched once for all of its quads.
+        for run in (0..shares.count).rev() {
+            let (first, owner) = &shares.runs[run];
+            self.fill_quads(batch, owner, &shares.of, *first..end);
+            end = *first;
+        }
+        shares.count = 0;
+        shares.open = false;
     }
 
     #[inline(always)]
     fn fill_quads(
         &self,
         batch: &mut PixelBatch,
-        setup: &Setup,
-        shares: &Shares,
+        owner: &Owner,
+        shares: &[[f32; LANES]; 2],
         quads: Range<usize>,
     ) {
-        let vertex = |index: u32| &self.vertices[index as usize];
-        let corners = setup.vertices.map(vertex);
-        let part = Part {
-            shares,
-            lanes: 4 * quads.start..4 * quads.end,
+        let part = Part { shares, quads };
+        let colored = match self.shade {
+            ShadeMode::Gouraud => owner.vertices,
+            ShadeMode::Flat => [owner.provoking; 3],
         };
-        let colors = |color: fn(&Vertex) -> Vec4| match self.shade {
-            ShadeMode::Gouraud => corners.map(|corner| color(corner).to_array().map(unit)),
-            ShadeMode::Flat => [color(vertex(setup.provoking)).to_array().map(unit); 3],
-        };
-        // A colour is taken into 0 to 1 again, as pixel shaders read it.
-        let inputs = &self.inputs;
-        if !inputs.diffuse.is_empty() {
-            let ends = colors(|vertex| vertex.diffuse);
-            part.mix(&mut batch.diffuse, inputs.diffuse, &ends, unit);
-        }
-        if !inputs.specular.is_empty() {
-            let ends = colors(|vertex| vertex.specular);
-            part.mix(&mut batch.specular, inputs.specular, &ends, unit);
-        }
-        if self.fog {
-            let ends = corners.map(|corner| fog_unit(corner.fog));
-            part.mix_component(&mut batch.fog, ends, unit);
-        }
-        for (set, coordinates) in batch.texcoords.iter_mut().enumerate() {
-            let components = inputs.texcoords[set];
-            if components.is_empty() {
-                continue;
+        for wanted in &self.wanted {
+            let component = wanted.component;
+            let ends = |[a, b, c]: [u32; 3]| wanted.ends.at_three(a, b, c);
+            match wanted.output {
+                Output::Texcoords(set) => {
+                    let ends = match (owner.sprite, component) {
+                        (false, _) => ends(owner.vertices),
+                        // In a sprite the shares are the position: 0 to 1 across and down.
+                        (true, 0) => [0.0, 1.0, 0.0],
+                        (true, 1) => [0.0, 0.0, 1.0],
+                        (true, _) => [0.0; 3],
+                    };
+                    part.mix(&mut batch.texcoords[set][component], ends, |value| value);
+                }
+                Output::Fog => {
+                    part.mix(&mut batch.fog, ends(owner.vertices).map(fog_unit), unit);
+                }
+                // A colour is taken into 0 to 1 again, as pixel shaders read it.
+                Output::Specular => part.mix(
+                    &mut batch.specular[component],
+                    ends(colored).map(unit),
+                    unit,
+                ),
+                _ => part.mix(&mut batch.diffuse[component], ends(colored).map(unit), unit),
             }
-            let ends = match setup.sprite {
-                false => corners.map(|corner| corner.texcoords[set].to_array()),
-                // In a sprite the shares are the position: 0 to 1 across and down.
-                true => [[0.0; 4], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]],
-            };
-            part.mix(coordinates, components, &ends, |value| value);
         }
     }
 }
 
 /// The pixels of a batch that belong to one shape.
 struct Part<'a> {
-    shares: &'a Shares,
-    lanes: Range<usize>,
+    shares: &'a [[f32; LANES]; 2],
+    quads: Range<usize>,
 }
 
 impl Part<'_> {
-    /// Values of the vertices to values of the pixels, each passed through `finish`.
+    /// A component at the vertices to the same at the pixels, passed through `finish`.
     #[inline(always)]
-    fn mix(
-        &self,
-        values: &mut Attribute,
-        components: WriteMask,
-        ends: &[[f32; 4]; 3],
-        finish: impl Fn(f32) -> f32,
-    ) {
-        for component in components.components() {
-            let ends = ends.map(|end| end[component]);
-            self.mix_component(&mut values[component], ends, &finish);
-        }
-    }
-
-    #[inline(always)]
-    fn mix_component(
-        &self,
-        values: &mut [f32; LANES],
-        [a0, a1, a2]: [f32; 3],
-        finish: impl Fn(f32) -> f32,
-    ) {
+    fn mix(&self, values: &mut [f32; LANES], [a0, a1, a2]: [f32; 3], finish: impl Fn(f32) -> f32) {
         let (to_second, to_third) = (a1 - a0, a2 - a0);
         let value = |second: f32, third: f32| finish(a0 + second * to_second + third * to_third);
         let [second, third] = self.shares;
-        if self.lanes == (0..LANES) {
+        if self.quads == (0..QUADS) {
             // Large triangles fill whole batches: a loop of known length.
             for lane in 0..LANES {
                 values[lane] = value(second[lane], third[lane]);
             }
             return;
         }
-        let shares = second
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .zip(third.as_chunks::<4>().0);
-        let (first, count) = (self.lanes.start / 4, self.lanes.len() / 4);
-        let quads = values.as_chunks_mut::<4>().0.iter_mut().zip(shares);
-        for (values, (second, third)) in quads.skip(first).take(count) {
-            *values = std::array::from_fn(|i| value(second[i], third[i]));
+        let (values, second, third) = (
+            values.as_chunks_mut::<4>().0,
+            second.as_chunks::<4>().0,
+            third.as_chunks::<4>().0,
+        );
+        for quad in self.quads.start..self.quads.end.min(QUADS) {
+            for i in 0..4 {
+                values[quad][i] = value(second[quad][i], third[quad][i]);
+            }
         }
     }
 }

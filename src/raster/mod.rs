@@ -7,11 +7,12 @@
 //! tell stage by stage what the merger did. [`BatchProgram`] and [`shade_vertices`] put kernels in the places of both,
 //! [`PictureProgram`] one whose registers are pictured.
 //!
-//! Files, in the order of the data: `assemble` (vertices to primitives), `clip`, `setup` and `points_lines` (primitives to
-//! what has edges and planes on the screen), `scan` (which pixels), `interpolate` (pixel inputs), `tiles` (the loop over
-//! all of it), `merger` (into the target) with `plain` (its short ways) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
+//! Files, in the order of the data: `vertices`, `screen` (where these are on it), `assemble` (vertices to primitives), `clip`,
+//! `setup` and `points_lines` (primitives to what has edges and planes on the screen), `bins` (which tiles), `scan` (which
+//! pixels), `interpolate` (pixel inputs), `tiles` (the loop over all of it), `merger` (into the target) with `plain` (its short ways) and its `record`, `cover`, `replay`; `picture` (numbers to colours), `capture`.
 
 mod assemble;
+mod bins;
 mod capture;
 mod clip;
 mod cover;
@@ -26,12 +27,14 @@ mod programmable;
 mod record;
 mod replay;
 mod scan;
+mod screen;
 mod setup;
 mod state;
 mod target;
 #[cfg(test)]
 mod tests;
 mod tiles;
+mod vertices;
 
 use glam::Vec4;
 
@@ -57,6 +60,10 @@ pub use state::{
 };
 pub use target::{ColorFormat, Surface, Target, TargetTooLarge, TooManyPlanes};
 pub use tiles::{Statistics, draw};
+pub use vertices::Vertices;
+
+/// How many texture coordinate sets there are.
+const SETS: usize = 8;
 
 /// One vertex as the vertex shader left it. Colours and fog are taken into 0 to 1 here, not by the shader.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,7 +106,7 @@ pub struct DrawCall<'a> {
     /// How vertices make up primitives.
     pub topology: Topology,
     /// The vertices.
-    pub vertices: &'a [Vertex],
+    pub vertices: &'a Vertices,
     /// Which vertices, in which order; `None`: all, as they come.
     pub indices: Option<&'a [u32]>,
 }

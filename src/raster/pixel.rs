@@ -16,16 +16,13 @@ pub type Attribute = [[f32; LANES]; 4];
 ///
 /// Lanes from `4 * quads` on hold nothing of meaning, and so do attributes that [`PixelShader::inputs`] leaves out.
 #[derive(Debug, Clone, PartialEq)]
+// No vector of it lies in two lines of the cache.
+#[repr(C, align(64))]
 pub struct PixelBatch {
-    /// How many quads there are, 1 to `LANES / 4`.
-    pub quads: usize,
     /// The column of each pixel. A pixel that is not live may lie outside the target.
     pub x: [i32; LANES],
     /// The row of each pixel.
     pub y: [i32; LANES],
-    /// Whether the pixel may be written. The others complete quads, for differences between neighbours: their inputs are
-    /// those of the primitive's plane continued beyond its edge.
-    pub live: [bool; LANES],
     /// `v0`, in 0 to 1.
     pub diffuse: Attribute,
     /// `v1`, in 0 to 1.
@@ -38,6 +35,11 @@ pub struct PixelBatch {
     pub w: [f32; LANES],
     /// The fog factor of the vertices, in 0 to 1.
     pub fog: [f32; LANES],
+    /// Whether the pixel may be written. The others complete quads, for differences between neighbours: their inputs are
+    /// those of the primitive's plane continued beyond its edge.
+    pub live: [bool; LANES],
+    /// How many quads there are, 1 to `LANES / 4`.
+    pub quads: usize,
 }
 
 impl PixelBatch {
@@ -63,26 +65,43 @@ impl PixelBatch {
     pub(super) fn place(&mut self, quad: usize, x: i32, y: i32, live: u8, z: &[f32; 4]) {
         self.x.as_chunks_mut().0[quad] = [x, x + 1, x, x + 1];
         self.y.as_chunks_mut().0[quad] = [y, y, y + 1, y + 1];
-        self.live.as_chunks_mut().0[quad] = std::array::from_fn::<_, 4, _>(|i| live >> i & 1 == 1);
+        self.live.as_chunks_mut().0[quad] = lanes(live);
         self.z.as_chunks_mut().0[quad] = *z;
     }
 }
 
+/// Which of four lanes a mask has: bit i is lane i.
+#[inline(always)]
+pub(super) const fn lanes(mask: u8) -> [bool; 4] {
+    // Looked up: it is asked for every quad.
+    const LANES_OF: [[bool; 4]; 16] = {
+        let mut all = [[false; 4]; 16];
+        let mut mask = 0;
+        while mask < 16 {
+            all[mask] = [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0, mask & 8 != 0];
+            mask += 1;
+        }
+        all
+    };
+    LANES_OF[(mask & 0xf) as usize]
+}
+
 /// What became of the pixels of a batch. It comes to [`PixelShader::shade`] with nothing killed.
 #[derive(Debug, Clone)]
+#[repr(C, align(64))]
 pub struct PixelResult {
     /// `r0`. The merger takes it into 0 to 1.
     pub color: Attribute,
+    /// Depths that replace the interpolated ones, if [`PixelShader::writes_depth`].
+    pub depth: [f32; LANES],
+    /// Pixels that `texkill` took out.
+    pub killed: [bool; LANES],
     /// What goes into the further planes of a target that was [split](super::Target::split). Those that are missing here
     /// take the colour.
     pub more: Vec<Attribute>,
     /// The planes, the first is 0, into which killed pixels go, too, where they pass the depth and stencil tests. They
     /// change nothing else.
     pub shows_killed: Vec<usize>,
-    /// Pixels that `texkill` took out.
-    pub killed: [bool; LANES],
-    /// Depths that replace the interpolated ones, if [`PixelShader::writes_depth`].
-    pub depth: [f32; LANES],
 }
 
 impl PixelResult {

@@ -37,6 +37,27 @@ pub(super) fn depths_pass(func: Compare, new: &[f32; 4], stored: &[f32; 4]) -> u
     }
 }
 
+/// The new ones of four where the mask has them, elsewhere the old ones.
+#[inline(always)]
+fn replaced(mask: u8, new: &[u32; 4], old: &[u32; 4]) -> [u32; 4] {
+    // All ones or zeros, so that the four are one operation: a choice for each goes through memory.
+    const TAKEN: [[u32; 4]; 16] = {
+        let mut all = [[0; 4]; 16];
+        let mut mask = 0;
+        while mask < 16 {
+            let mut i = 0;
+            while i < 4 {
+                all[mask][i] = if mask >> i & 1 == 1 { u32::MAX } else { 0 };
+                i += 1;
+            }
+            mask += 1;
+        }
+        all
+    };
+    let taken = &TAKEN[usize::from(mask & 0xf)];
+    std::array::from_fn(|i| new[i] & taken[i] | old[i] & !taken[i])
+}
+
 /// The depth test of a quad without stencil, nobody watching.
 #[inline(always)]
 pub(super) fn depth_alone(
@@ -51,9 +72,8 @@ pub(super) fn depth_alone(
     };
     let passed = depths_pass(state.depth.func, z, stored) & mask;
     if state.depth.write {
-        for (i, stored) in stored.iter_mut().enumerate() {
-            *stored = if passed >> i & 1 == 1 { z[i] } else { *stored };
-        }
+        let (new, old) = (z.map(f32::to_bits), stored.map(f32::to_bits));
+        *stored = replaced(passed, &new, &old).map(f32::from_bits);
     }
     passed
 }
@@ -98,11 +118,10 @@ pub(super) fn put_plain(tile: &mut Tile, batch: &PixelBatch, shaded: &PixelResul
         let Some(stored) = tile.color.as_chunks_mut::<4>().0.get_mut(at) else {
             continue;
         };
-        for ((stored, color), live) in stored.iter_mut().zip(colors).zip(live) {
-            let old = u32::from_le_bytes(*stored);
-            *stored = (if *live { *color } else { old }).to_le_bytes();
-        }
-        written += u64::from(bits(*live).count_ones());
+        let live = bits(*live);
+        let old = stored.map(u32::from_le_bytes);
+        *stored = replaced(live, colors, &old).map(u32::to_le_bytes);
+        written += u64::from(live.count_ones());
     }
     written
 }

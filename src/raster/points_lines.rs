@@ -1,7 +1,7 @@
 //! Points, which are squares, and lines, which are one pixel thin.
 
 use super::scan::{Bounds, Shape};
-use super::setup::{Corner, Plane, Planes, Setup, Stage};
+use super::setup::{Corner, Linear, Owner, Planes, Setup, Stage};
 
 /// A square around a corner. Its size is the vertex's or the state's, between the state's limits; its left and upper
 /// sides belong to it, its right and lower ones do not, as with triangles.
@@ -14,7 +14,7 @@ pub(super) fn point(stage: &Stage, vertices: [u32; 3], corner: &Corner) -> Optio
         _ => 0,
     };
     let index = vertices[which];
-    let size = stage.vertex(index).point_size.unwrap_or(state.size);
+    let size = stage.call.vertices.point_size(index).unwrap_or(state.size);
     // In this order a NaN becomes a limit, and limits the wrong way round do no harm.
     let size = f64::from(size.max(state.min).min(state.max));
     if size.is_nan() || size <= 0.0 {
@@ -29,35 +29,31 @@ pub(super) fn point(stage: &Stage, vertices: [u32; 3], corner: &Corner) -> Optio
         y1: (top + size).ceil() as i32,
     }
     .intersect(&stage.scissor)?;
-    let mut planes = Planes::new(&[*corner], |[value]| Plane::constant(value));
+    let mut planes = Planes::new(&[*corner], |[at]| Linear {
+        at,
+        dx: [0.0; 4],
+        dy: [0.0; 4],
+    });
     if state.sprite {
         // The shares of the vertices have no use in a point; its coordinates take their place.
-        let across = |start: f64| -start / size;
         let [rightwards, downwards] = Planes::SHARES;
-        planes.set(
-            rightwards,
-            &Plane {
-                at: across(left),
-                dx: 1.0 / size,
-                dy: 0.0,
-            },
-        );
-        planes.set(
-            downwards,
-            &Plane {
-                at: across(top),
-                dx: 0.0,
-                dy: 1.0 / size,
-            },
-        );
+        planes = planes.changed(|linear| {
+            for (share, start) in [(rightwards, left), (downwards, top)] {
+                linear.at[share] = -start / size;
+            }
+            (linear.dx[rightwards], linear.dy[rightwards]) = (1.0 / size, 0.0);
+            (linear.dx[downwards], linear.dy[downwards]) = (0.0, 1.0 / size);
+        });
     }
     Some(Setup {
-        vertices: [index; 3],
-        provoking: vertices[0],
-        sprite: state.sprite,
+        owner: Owner {
+            vertices: [index; 3],
+            provoking: vertices[0],
+            sprite: state.sprite,
+        },
         bounds,
         shape: Shape::Rectangle,
-        planes: stage.biased(planes),
+        planes: planes.biased(stage.call.state.depth.bias),
     })
 }
 
@@ -74,20 +70,18 @@ pub(super) fn line(stage: &Stage, vertices: [u32; 3], ends: &[Corner; 2]) -> Opt
     }
     .intersect(&stage.scissor)?;
     let planes = Planes::new(ends, |[from, to]| {
-        let slope = (to - from) / (line.end - line.start);
-        Plane {
-            at: from - slope * line.start,
-            dx: if line.steep { 0.0 } else { slope },
-            dy: if line.steep { slope } else { 0.0 },
+        let slope: [f64; 4] = std::array::from_fn(|i| (to[i] - from[i]) / (line.end - line.start));
+        Linear {
+            at: std::array::from_fn(|i| from[i] - slope[i] * line.start),
+            dx: if line.steep { [0.0; 4] } else { slope },
+            dy: if line.steep { slope } else { [0.0; 4] },
         }
     });
     Some(Setup {
-        vertices,
-        provoking: vertices[0],
-        sprite: false,
+        owner: Owner::of(vertices),
         bounds,
         shape: Shape::Line(line),
-        planes: stage.biased(planes),
+        planes: planes.biased(stage.call.state.depth.bias),
     })
 }
 

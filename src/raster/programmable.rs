@@ -1,6 +1,9 @@
 //! Kernels in their places around the rasterizer: vertices from a vertex shader, pixels from a pixel shader.
 
-use super::{Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, Vertex};
+use super::vertices::{Layout, Output, Row};
+use super::{
+    Attribute, LANES, PixelBatch, PixelInputs, PixelResult, PixelShader, SETS, Vertex, Vertices,
+};
 use crate::exec::{Batch, Environment, Lanes, Machine, Observer, Trace};
 use crate::isa::WriteMask;
 use crate::kernel::{Kernel, Plan, Slot};
@@ -12,8 +15,6 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// How many input registers a vertex shader has.
 const INPUTS: usize = 16;
-/// How many texture coordinate sets there are.
-const SETS: usize = 8;
 
 /// Runs a vertex shader over `count` vertices.
 ///
@@ -25,61 +26,86 @@ pub fn shade_vertices(
     environment: &Environment<'_>,
     count: usize,
     fetch: impl Fn(usize, usize) -> [f32; 4] + Sync,
-) -> Vec<Vertex> {
-    let inputs: Vec<(usize, Slot)> = (0..INPUTS)
-        .filter_map(|i| Some((i, Slot::input(i)?)))
-        .filter(|(_, slot)| !kernel.read(*slot).is_empty())
+) -> Vertices {
+    let inputs: Vec<usize> = (0..INPUTS)
+        .filter(|i| Slot::input(*i).is_some_and(|slot| !kernel.read(slot).is_empty()))
         .collect();
     let simd = Simd::chosen();
     let shader = number();
-    let batch = |(number, vertices): (usize, &mut [Vertex])| {
+    let mut vertices = Vertices::new(count, |output| {
+        slot_of(output).is_some_and(|slot| !kernel.written(slot).is_empty())
+    });
+    let layout = vertices.layout();
+    let block = |fetched: &mut Fetched, (number, rows): (usize, &mut [Row])| {
         let first = number * LANES;
-        let mut fetched = [[[0.0; LANES]; 4]; INPUTS];
-        for (register, _) in &inputs {
-            for lane in 0..vertices.len() {
+        let lanes = LANES.min(count - first);
+        for register in &inputs {
+            for lane in 0..lanes {
                 let value = fetch(first + lane, *register);
                 for (lanes, number) in fetched[*register].iter_mut().zip(value) {
                     lanes[lane] = number;
                 }
             }
         }
-        ROWS.with_borrow_mut(|rows| {
+        ROWS.with_borrow_mut(|batch| {
             simd.run(ShadeVertices {
                 simd,
-                batch: rows.of(shader, plan, environment),
+                batch: batch.of(shader, plan, environment),
                 kernel,
                 plan,
                 environment,
-                fetched: &fetched,
-                vertices,
+                fetched,
+                lanes,
+                rows,
+                layout,
             });
         });
     };
-    // What no output is written to is what a vertex has by itself.
-    let mut vertices = vec![Vertex::default(); count];
+    let empty = || Box::new([[[0.0; LANES]; 4]; INPUTS]);
+    let (rows, stride) = vertices.blocks_mut();
     #[cfg(feature = "parallel")]
     {
         use rayon::prelude::*;
-        vertices
-            .par_chunks_mut(LANES)
+        rows.par_chunks_mut(stride)
             .with_min_len(8)
             .enumerate()
-            .for_each(batch);
+            .for_each_init(empty, |fetched, rows| block(fetched, rows));
     }
     #[cfg(not(feature = "parallel"))]
-    vertices.chunks_mut(LANES).enumerate().for_each(batch);
+    {
+        let mut fetched = empty();
+        let blocks = rows.chunks_mut(stride).enumerate();
+        blocks.for_each(|rows| block(&mut fetched, rows));
+    }
     vertices
 }
 
-/// A batch of vertices, as something that is compiled for each set of instructions.
+/// What input registers hold for a block of vertices.
+type Fetched = [[Row; 4]; INPUTS];
+
+/// The register that becomes an output.
+fn slot_of(output: Output) -> Option<Slot> {
+    match output {
+        Output::Position => Some(Slot::POSITION),
+        Output::Diffuse => Slot::color_output(0),
+        Output::Specular => Slot::color_output(1),
+        Output::Fog => Some(Slot::FOG),
+        Output::PointSize => Some(Slot::POINT_SIZE),
+        Output::Texcoords(set) => Slot::texcoord_output(set),
+    }
+}
+
+/// A block of vertices, as something that is compiled for each set of instructions.
 struct ShadeVertices<'a, 'e> {
     simd: Simd,
     batch: &'a mut Batch<LANES>,
     kernel: &'a Kernel,
     plan: &'a Plan,
     environment: &'a Environment<'e>,
-    fetched: &'a [[[f32; LANES]; 4]; INPUTS],
-    vertices: &'a mut [Vertex],
+    fetched: &'a Fetched,
+    lanes: usize,
+    rows: &'a mut [Row],
+    layout: Layout,
 }
 
 impl Task for ShadeVertices<'_, '_> {
@@ -91,43 +117,28 @@ impl Task for ShadeVertices<'_, '_> {
             batch,
             kernel,
             plan,
-            vertices,
+            rows,
             ..
         } = self;
         batch.input(plan, |slot, component| {
             self.fetched.get(slot.input_index()?)?.get(component)
         });
-        batch.run_here(self.simd, plan, self.environment, vertices.len());
-        for (slot, component) in [
-            (Slot::FOG, kernel.fog_component),
-            (Slot::POINT_SIZE, kernel.point_size_component),
-        ] {
-            let row = batch.output(plan, slot)[component & 3];
-            if let Some(row) = row.filter(|_| !kernel.written(slot).is_empty()) {
-                for (vertex, number) in vertices.iter_mut().zip(row) {
-                    match slot {
-                        Slot::FOG => vertex.fog = *number,
-                        _ => vertex.point_size = Some(*number),
-                    }
-                }
-            }
-        }
-        let mut take = |slot: Option<Slot>, place: fn(&mut Vertex, usize) -> &mut Vec4, n| {
-            let Some(slot) = slot.filter(|slot| !kernel.written(*slot).is_empty()) else {
-                return;
+        batch.run_here(self.simd, plan, self.environment, self.lanes);
+        for output in Output::all() {
+            let first = match output {
+                Output::Fog => kernel.fog_component,
+                Output::PointSize => kernel.point_size_component,
+                _ => 0,
             };
-            if let [Some(x), Some(y), Some(z), Some(w)] = batch.output(plan, slot) {
-                for (lane, vertex) in vertices.iter_mut().enumerate().take(LANES) {
-                    *place(vertex, n) = Vec4::new(x[lane], y[lane], z[lane], w[lane]);
-                }
+            let Some(slot) = slot_of(output) else {
+                continue;
+            };
+            let left = batch.output(plan, slot);
+            for (component, row) in (first..).zip(self.layout.rows(rows, output)) {
+                *row = left[component & 3]
+                    .copied()
+                    .unwrap_or([output.default(); LANES]);
             }
-        };
-        take(Some(Slot::POSITION), |vertex, _| &mut vertex.position, 0);
-        take(Slot::color_output(0), |vertex, _| &mut vertex.diffuse, 0);
-        take(Slot::color_output(1), |vertex, _| &mut vertex.specular, 0);
-        for set in 0..SETS {
-            let slot = Slot::texcoord_output(set);
-            take(slot, |vertex, set| &mut vertex.texcoords[set], set);
         }
     }
 }

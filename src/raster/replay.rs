@@ -74,6 +74,7 @@ impl LoneTarget {
         };
         let format = self.target.format();
         if let Some(tile) = self.target.tiles_mut().first_mut() {
+            let tile = tile.settled();
             merge(tile, format, state, timing, batch, shaded, &mut recorder);
         }
         MergeRecord {

@@ -6,6 +6,8 @@ use super::setup::{Corner, SUBPIXELS};
 /// The side of the blocks that are taken or left as a whole.
 const BLOCK: i32 = 8;
 
+const SUBPIXEL_BITS: u32 = SUBPIXELS.trailing_zeros();
+
 /// A rectangle of pixels, its right and lower ends left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Bounds {
@@ -17,22 +19,24 @@ pub(super) struct Bounds {
 
 impl Bounds {
     /// The pixels whose centres lie between the outermost corners.
-    pub(super) fn around(corners: &[Corner]) -> Self {
-        let range = |value: fn(&Corner) -> i64| {
-            let least = corners.iter().map(value).min().unwrap_or(0);
-            let greatest = corners.iter().map(value).max().unwrap_or(0);
+    #[inline(always)]
+    pub(super) fn around<const N: usize>(corners: &[Corner; N]) -> Self {
+        let range = |values: [i64; N]| {
+            let least = values.into_iter().fold(i64::MAX, i64::min);
+            let greatest = values.into_iter().fold(i64::MIN, i64::max);
             // Corners are within the guard band, so nothing is cut off here.
             (
-                (-(-least).div_euclid(SUBPIXELS)) as i32,
-                (greatest.div_euclid(SUBPIXELS) + 1) as i32,
+                ((least + SUBPIXELS - 1) >> SUBPIXEL_BITS) as i32,
+                ((greatest >> SUBPIXEL_BITS) + 1) as i32,
             )
         };
-        let (x0, x1) = range(|corner| corner.x);
-        let (y0, y1) = range(|corner| corner.y);
+        let (x0, x1) = range(corners.each_ref().map(|corner| corner.x));
+        let (y0, y1) = range(corners.each_ref().map(|corner| corner.y));
         Self { x0, y0, x1, y1 }
     }
 
     /// What both have; `None` if that is nothing.
+    #[inline(always)]
     pub(super) fn intersect(&self, other: &Self) -> Option<Self> {
         let common = Self {
             x0: self.x0.max(other.x0),
@@ -46,6 +50,23 @@ impl Bounds {
     #[inline]
     pub(super) fn contains(&self, x: i32, y: i32) -> bool {
         (self.x0..self.x1).contains(&x) && (self.y0..self.y1).contains(&y)
+    }
+
+    /// The quads that have a pixel inside.
+    #[inline(always)]
+    fn in_quads(&self) -> Self {
+        Self {
+            x0: self.x0 & !1,
+            y0: self.y0 & !1,
+            x1: self.x1 + (self.x1 & 1),
+            y1: self.y1 + (self.y1 & 1),
+        }
+    }
+
+    /// Whether nothing of it is outside of another.
+    #[inline(always)]
+    fn within(&self, other: &Self) -> bool {
+        self.x0 >= other.x0 && self.y0 >= other.y0 && self.x1 <= other.x1 && self.y1 <= other.y1
     }
 
     /// Which of the pixels of the quad at (x, y) are inside.
@@ -72,6 +93,7 @@ pub(super) struct Edge {
 
 impl Edge {
     /// Of a clockwise triangle. A pixel on the edge itself is inside if the edge is a top or a left one.
+    #[inline(always)]
     pub(super) fn new(from: &Corner, to: &Corner) -> Self {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         // Clockwise with y downwards: left edges go up, and the top edge goes to the right.
@@ -122,6 +144,7 @@ impl Shape {
     }
 
     /// Whether anything of a square may be covered; may err on the side of yes.
+    #[inline(always)]
     pub(super) fn touches(&self, x: i32, y: i32, side: i32) -> bool {
         match self {
             Self::Rectangle | Self::Line(_) => true,
@@ -130,9 +153,15 @@ impl Shape {
     }
 
     /// Calls `quad` with the position and the mask (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right) of every
-    /// quad of which something within `bounds` is covered, each once for areas.
+    /// quad of which something within `bounds` is covered, each once for areas. These are what the bounds of the shape have
+    /// in common with a rectangle of whole quads; the scissor has already cut them.
     #[inline(always)]
-    pub(super) fn scan(&self, bounds: &Bounds, mut quad: impl FnMut(i32, i32, u8)) {
+    pub(super) fn scan(
+        &self,
+        bounds: &Bounds,
+        scissor: &Bounds,
+        mut quad: impl FnMut(i32, i32, u8),
+    ) {
         match self {
             Self::Rectangle => {
                 for y in (bounds.y0 & !1..bounds.y1).step_by(2) {
@@ -141,64 +170,100 @@ impl Shape {
                     }
                 }
             }
-            Self::Triangle(edges) => {
-                for y in (bounds.y0 & !(BLOCK - 1)..bounds.y1).step_by(BLOCK as usize) {
-                    for x in (bounds.x0 & !(BLOCK - 1)..bounds.x1).step_by(BLOCK as usize) {
-                        scan_block(edges, bounds, x, y, &mut quad);
-                    }
-                }
-            }
+            Self::Triangle(edges) => scan_triangle(edges, bounds, scissor, quad),
             Self::Line(line) => line.scan(bounds, quad),
         }
     }
 }
 
+/// As [`Shape::scan`].
 #[inline(always)]
-fn scan_block(
+pub(super) fn scan_triangle(
     edges: &[Edge; 3],
     bounds: &Bounds,
-    x0: i32,
-    y0: i32,
-    quad: &mut impl FnMut(i32, i32, u8),
+    scissor: &Bounds,
+    mut quad: impl FnMut(i32, i32, u8),
 ) {
-    let mut whole = true;
-    for edge in edges {
-        match edge.square(x0, y0, BLOCK) {
-            None => return,
-            Some(all) => whole &= all,
-        }
+    let area = bounds.in_quads();
+    if area.x1 - area.x0 <= BLOCK && area.y1 - area.y0 <= BLOCK {
+        // Looking at the few quads is cheaper than looking whether one has to.
+        return scan_quads(edges, &area, scissor, &mut quad);
     }
-    let within =
-        x0 >= bounds.x0 && y0 >= bounds.y0 && x0 + BLOCK <= bounds.x1 && y0 + BLOCK <= bounds.y1;
-    // Quads outside of the bounds have an empty mask; leave out what can be left out without looking.
-    let ys = y0.max(bounds.y0 & !1)..(y0 + BLOCK).min(bounds.y1);
-    let xs = x0.max(bounds.x0 & !1)..(x0 + BLOCK).min(bounds.x1);
-    for y in ys.step_by(2) {
-        for x in xs.clone().step_by(2) {
-            let mut mask = if whole { 0xf } else { quad_mask(edges, x, y) };
-            if !within {
-                mask &= bounds.mask(x, y);
+    let mut y = area.y0 & !(BLOCK - 1);
+    while y < area.y1 {
+        let mut x = area.x0 & !(BLOCK - 1);
+        while x < area.x1 {
+            let block = Bounds {
+                x0: x,
+                y0: y,
+                x1: x + BLOCK,
+                y1: y + BLOCK,
+            };
+            let covered = edges.each_ref().map(|edge| edge.square(x, y, BLOCK));
+            if covered == [Some(true); 3] && block.within(scissor) && block.within(&area) {
+                for (x, y) in quads_of_block(x, y) {
+                    quad(x, y, 0xf);
+                }
+            } else if !covered.contains(&None)
+                && let Some(part) = block.intersect(&area)
+            {
+                scan_quads(edges, &part, scissor, &mut quad);
             }
-            if mask != 0 {
-                quad(x, y, mask);
-            }
+            x += BLOCK;
         }
+        y += BLOCK;
     }
 }
 
+/// The positions of the quads of a block, row by row.
 #[inline(always)]
-fn quad_mask(edges: &[Edge; 3], x: i32, y: i32) -> u8 {
+fn quads_of_block(x0: i32, y0: i32) -> impl Iterator<Item = (i32, i32)> {
+    const SIDE: i32 = BLOCK / 2;
+    (0..SIDE * SIDE).map(move |i| (x0 + i % SIDE * 2, y0 + i / SIDE * 2))
+}
+
+/// The quads of an area of whole ones.
+#[inline(always)]
+fn scan_quads(
+    edges: &[Edge; 3],
+    area: &Bounds,
+    scissor: &Bounds,
+    quad: &mut impl FnMut(i32, i32, u8),
+) {
+    // Pixels beyond the bounds of the shape are outside of an edge. Those that the scissor takes may be inside of all.
+    let cut = !area.within(scissor);
     // A pixel is inside where no edge function is negative: where no sign bit is set.
-    let mut signs = [0_i64; 4];
-    for edge in edges {
-        let at = edge.at(x, y);
-        signs[0] |= at;
-        signs[1] |= at + edge.a;
-        signs[2] |= at + edge.b;
-        signs[3] |= at + edge.a + edge.b;
+    let mut row: [[i64; 4]; 3] = edges.each_ref().map(|edge| {
+        let at = edge.at(area.x0, area.y0);
+        [at, at + edge.a, at + edge.b, at + edge.a + edge.b]
+    });
+    let (right, down) = (
+        edges.each_ref().map(|edge| 2 * edge.a),
+        edges.each_ref().map(|edge| 2 * edge.b),
+    );
+    let mut y = area.y0;
+    while y < area.y1 {
+        let mut at = row;
+        let mut x = area.x0;
+        while x < area.x1 {
+            let signs: [i64; 4] = std::array::from_fn(|i| at[0][i] | at[1][i] | at[2][i]);
+            let inside = (0..4).fold(0, |mask, i| mask | u8::from(signs[i] >= 0) << i);
+            let mask = if cut {
+                inside & scissor.mask(x, y)
+            } else {
+                inside
+            };
+            if mask != 0 {
+                quad(x, y, mask);
+            }
+            for (at, right) in at.iter_mut().zip(right) {
+                at.iter_mut().for_each(|at| *at += right);
+            }
+            x += 2;
+        }
+        for (row, down) in row.iter_mut().zip(down) {
+            row.iter_mut().for_each(|row| *row += down);
+        }
+        y += 2;
     }
-    signs
-        .iter()
-        .enumerate()
-        .fold(0, |mask, (i, sign)| mask | u8::from(*sign >= 0) << i)
 }

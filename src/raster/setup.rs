@@ -3,12 +3,13 @@
 //! Screen positions are rounded to 1/8192 pixel before anything is derived from them. Edge functions are exact integers, so
 //! each pixel belongs to exactly one of the triangles around a shared edge.
 
-use super::clip::{ClipVertex, Clipper, GUARD, SHARES};
+use super::clip::{ClipVertex, Clipper, SHARES};
 use super::cover::ScreenPosition;
 use super::points_lines;
 use super::scan::{Bounds, Edge, Shape};
+use super::screen::{Projection, Spot};
 use super::state::{CullMode, DEPTH_BIAS_STEP, FillMode, Viewport};
-use super::{DrawCall, DrawError, Topology, Vertex};
+use super::{DrawCall, DrawError, Topology};
 
 /// Subpixels of a pixel.
 ///
@@ -17,25 +18,15 @@ use super::{DrawCall, DrawError, Topology, Vertex};
 /// corners in the guard band; yet positions that were meant to lie on pixel centres still come to lie there.
 pub(super) const SUBPIXELS: i64 = 8192;
 
-/// A linear function of the pixel position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Plane {
-    /// The value at pixel (0, 0).
-    pub(super) at: f64,
-    /// The change for one pixel to the right.
-    pub(super) dx: f64,
-    /// The change for one pixel downwards.
-    pub(super) dy: f64,
-}
-
-impl Plane {
-    pub(super) fn constant(at: f64) -> Self {
-        Self {
-            at,
-            dx: 0.0,
-            dy: 0.0,
-        }
-    }
+/// Four linear functions of the pixel position side by side, as [`Planes::INVERSE_W`] and those behind it name them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Linear {
+    /// The values at pixel (0, 0).
+    pub(super) at: [f64; 4],
+    /// The changes for one pixel to the right.
+    pub(super) dx: [f64; 4],
+    /// The changes for one pixel downwards.
+    pub(super) dy: [f64; 4],
 }
 
 /// A corner on the screen.
@@ -50,26 +41,38 @@ pub(super) struct Corner {
 }
 
 impl Corner {
+    #[inline(always)]
+    pub(super) fn new(spot: &Spot, shares: [f64; 2]) -> Self {
+        Self {
+            x: spot.x.into(),
+            y: spot.y.into(),
+            z: spot.z,
+            w: spot.w,
+            shares,
+        }
+    }
+
     /// The position in pixels.
+    #[inline(always)]
     pub(super) fn pixels(&self) -> [f64; 2] {
         [self.x, self.y].map(|v| v as f64 / SUBPIXELS as f64)
     }
 }
 
-/// What is interpolated over one shape: four quantities side by side, as [`Planes::INVERSE_W`] and those behind it name
-/// them. Attributes are not in here: they follow from the shares of the vertices.
+/// What is interpolated over one shape: four quantities. Attributes are not in here: they follow from the shares of the
+/// vertices.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Planes {
-    /// The values at pixel (0, 0).
-    at: [f64; 4],
-    /// The changes for one pixel to the right.
-    dx: [f64; 4],
-    /// The changes for one pixel downwards.
-    dy: [f64; 4],
+    linear: Linear,
+    /// What each quantity changes from the first pixel of a quad to the four of them.
+    steps: [[f32; 4]; 4],
     pub(super) w_scale: f32,
     /// `inverse_w` is never taken smaller than this, lest it reach zero at a pixel beside the shape.
-    pub(super) inverse_w_floor: f32,
+    inverse_w_floor: f32,
 }
+
+/// All quantities at the four pixels of a quad.
+pub(super) type Quantities = [[f32; 4]; 4];
 
 impl Planes {
     /// `w_scale / w`, so that its greatest value at a corner is 1.
@@ -79,48 +82,98 @@ impl Planes {
     /// The depth.
     pub(super) const Z: usize = 3;
 
-    /// Puts another plane in the place of a quantity.
-    pub(super) fn set(&mut self, quantity: usize, plane: &Plane) {
-        self.at[quantity] = plane.at;
-        self.dx[quantity] = plane.dx;
-        self.dy[quantity] = plane.dy;
-    }
-
-    /// All quantities at the four pixels of a quad.
+    /// From the quantities at each of the corners to their planes.
     #[inline(always)]
-    pub(super) fn quad(&self, x: i32, y: i32) -> [[f32; 4]; 4] {
-        let (x, y) = (f64::from(x), f64::from(y));
-        // The first pixel in double precision: from the screen's origin a float would lose what a small triangle needs.
-        let at: [f32; 4] =
-            std::array::from_fn(|i| (self.at[i] + self.dx[i] * x + self.dy[i] * y) as f32);
-        let dx = self.dx.map(|change| change as f32);
-        let dy = self.dy.map(|change| change as f32);
-        std::array::from_fn(|i| [at[i], at[i] + dx[i], at[i] + dy[i], at[i] + (dx[i] + dy[i])])
-    }
-
-    /// From the value of any linear quantity at each of the corners to its plane.
     pub(super) fn new<const N: usize>(
         corners: &[Corner; N],
-        plane: impl Fn([f64; N]) -> Plane,
+        linear: impl Fn([[f64; 4]; N]) -> Linear,
     ) -> Self {
         let w_scale = corners
             .iter()
             .fold(f64::INFINITY, |least, corner| least.min(corner.w));
         let inverse_w = corners.map(|corner| w_scale / corner.w);
         let least = inverse_w.iter().fold(1.0, |least: f64, v| least.min(*v));
-        let share = |which: usize| {
-            plane(std::array::from_fn(|i| {
-                corners[i].shares[which] * inverse_w[i]
-            }))
+        let values = std::array::from_fn(|i| {
+            let ([second, third], inverse_w) = (corners[i].shares, inverse_w[i]);
+            [
+                inverse_w,
+                second * inverse_w,
+                third * inverse_w,
+                corners[i].z,
+            ]
+        });
+        Self::of(
+            linear(values),
+            w_scale as f32,
+            (least / 256.0).max(1e-30) as f32,
+        )
+    }
+
+    #[inline(always)]
+    fn of(linear: Linear, w_scale: f32, inverse_w_floor: f32) -> Self {
+        let step = |i: usize| {
+            let (dx, dy) = (linear.dx[i] as f32, linear.dy[i] as f32);
+            // Adding -0 changes nothing.
+            [-0.0, dx, dy, dx + dy]
         };
-        let z = plane(corners.map(|corner| corner.z));
-        let of = [plane(inverse_w), share(0), share(1), z];
         Self {
-            at: of.each_ref().map(|plane| plane.at),
-            dx: of.each_ref().map(|plane| plane.dx),
-            dy: of.each_ref().map(|plane| plane.dy),
-            w_scale: w_scale as f32,
-            inverse_w_floor: (least / 256.0).max(1e-30) as f32,
+            linear,
+            steps: std::array::from_fn(step),
+            w_scale,
+            inverse_w_floor,
+        }
+    }
+
+    /// The same with other planes for some of the quantities.
+    pub(super) fn changed(self, change: impl FnOnce(&mut Linear)) -> Self {
+        let mut linear = self.linear;
+        change(&mut linear);
+        Self::of(linear, self.w_scale, self.inverse_w_floor)
+    }
+
+    /// `D3DRS_ZBIAS` brings what is drawn nearer.
+    #[inline(always)]
+    pub(super) fn biased(mut self, bias: u8) -> Self {
+        self.linear.at[Self::Z] -= f64::from(bias) * DEPTH_BIAS_STEP;
+        self
+    }
+
+    #[inline(always)]
+    pub(super) fn quad(&self, x: i32, y: i32) -> Quantities {
+        let (x, y) = (f64::from(x), f64::from(y));
+        let Linear { at, dx, dy } = &self.linear;
+        // The first pixel in double precision: from the screen's origin a float would lose what a small triangle needs.
+        let at: [f32; 4] = std::array::from_fn(|i| (at[i] + dx[i] * x + dy[i] * y) as f32);
+        std::array::from_fn(|i| self.steps[i].map(|step| at[i] + step))
+    }
+
+    /// [`Self::INVERSE_W`] at the four pixels of a quad, as it is divided by.
+    #[inline(always)]
+    pub(super) fn inverse_w(&self, quantities: &Quantities) -> [f32; 4] {
+        let floor = self.inverse_w_floor;
+        quantities[Self::INVERSE_W].map(|value| if value > floor { value } else { floor })
+    }
+}
+
+/// Where the attributes of a shape come from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Owner {
+    /// The vertices whose attributes are interpolated.
+    pub(super) vertices: [u32; 3],
+    /// The vertex that gives the colours of flat shading.
+    pub(super) provoking: u32,
+    /// Whether the coordinate sets are replaced by the position inside the point.
+    pub(super) sprite: bool,
+}
+
+impl Owner {
+    /// Of a triangle or a line: all is interpolated, or it is the first vertex that counts.
+    #[inline(always)]
+    pub(super) fn of(vertices: [u32; 3]) -> Self {
+        Self {
+            vertices,
+            provoking: vertices[0],
+            sprite: false,
         }
     }
 }
@@ -128,12 +181,7 @@ impl Planes {
 /// A shape on the screen that is ready to be drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Setup {
-    /// The vertices whose attributes are interpolated.
-    pub(super) vertices: [u32; 3],
-    /// The vertex that gives the colours of flat shading.
-    pub(super) provoking: u32,
-    /// Whether the coordinate sets are replaced by the position inside the point.
-    pub(super) sprite: bool,
+    pub(super) owner: Owner,
     /// What may be covered, within the scissor.
     pub(super) bounds: Bounds,
     pub(super) shape: Shape,
@@ -167,8 +215,8 @@ impl Room {
 /// The part of a draw call that turns primitives into shapes.
 pub(super) struct Stage<'a> {
     pub(super) call: DrawCall<'a>,
-    viewport: Viewport,
-    clipper: Clipper,
+    pub(super) clipper: Clipper,
+    pub(super) projection: Projection,
     /// The viewport, within the target.
     pub(super) scissor: Bounds,
 }
@@ -196,8 +244,8 @@ impl<'a> Stage<'a> {
         };
         Ok(Self {
             clipper: Clipper::new(&viewport, &call.state.clip_planes),
+            projection: Projection::new(&viewport),
             call,
-            viewport,
             scissor,
         })
     }
@@ -216,7 +264,7 @@ impl<'a> Stage<'a> {
 
     /// Adds the shapes of a primitive, in drawing order.
     pub(super) fn primitive(&self, vertices: [u32; 3], room: &mut Room, shapes: &mut Vec<Setup>) {
-        let positions = vertices.map(|index| self.vertex(index).position);
+        let positions = vertices.map(|index| self.call.vertices.position(index));
         let vertices_of_primitive = match self.call.topology {
             Topology::PointList => 1,
             Topology::LineList | Topology::LineStrip => 2,
@@ -235,10 +283,6 @@ impl<'a> Stage<'a> {
         }
     }
 
-    pub(super) fn vertex(&self, index: u32) -> &'a Vertex {
-        &self.call.vertices[index as usize]
-    }
-
     /// What is left of a triangle, as area, edges or corners.
     fn polygon(
         &self,
@@ -249,12 +293,7 @@ impl<'a> Stage<'a> {
     ) {
         let fan = |i: usize| [&corners[0], &corners[i], &corners[i + 1]];
         let area: i64 = (1..corners.len() - 1).map(|i| doubled_area(fan(i))).sum();
-        let culled = match self.call.state.cull {
-            CullMode::None => area == 0,
-            CullMode::Cw => area >= 0,
-            CullMode::Ccw => area <= 0,
-        };
-        if culled {
+        if self.culls(area) {
             return;
         }
         if let (FillMode::Solid, [a, b, c]) = (self.call.state.fill, corners) {
@@ -284,65 +323,80 @@ impl<'a> Stage<'a> {
         }
     }
 
-    fn triangle(&self, vertices: [u32; 3], mut corners: [Corner; 3]) -> Option<Setup> {
-        if doubled_area(corners.each_ref()) < 0 {
-            corners.swap(1, 2);
+    /// Whether triangles of this area, positive for clockwise ones, are left out.
+    #[inline(always)]
+    pub(super) fn culls(&self, area: i64) -> bool {
+        match self.call.state.cull {
+            CullMode::None => area == 0,
+            CullMode::Cw => area >= 0,
+            CullMode::Ccw => area <= 0,
         }
-        let bounds = Bounds::around(&corners).intersect(&self.scissor)?;
-        let area = doubled_area(corners.each_ref()) as f64 / (SUBPIXELS * SUBPIXELS) as f64;
-        let [[x0, y0], [x1, y1], [x2, y2]] = corners.map(|corner| corner.pixels());
-        let planes = Planes::new(&corners, |[v0, v1, v2]| {
-            let dx = ((v1 - v0) * (y2 - y0) - (v2 - v0) * (y1 - y0)) / area;
-            let dy = ((v2 - v0) * (x1 - x0) - (v1 - v0) * (x2 - x0)) / area;
-            Plane {
-                at: v0 - dx * x0 - dy * y0,
-                dx,
-                dy,
-            }
-        });
-        let [a, b, c] = &corners;
+    }
+
+    fn triangle(&self, vertices: [u32; 3], corners: [Corner; 3]) -> Option<Setup> {
+        let outline = Outline::new(corners);
         Some(Setup {
-            vertices,
-            provoking: vertices[0],
-            sprite: false,
-            bounds,
-            shape: Shape::Triangle([Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)]),
-            planes: self.biased(planes),
+            owner: Owner::of(vertices),
+            bounds: outline.bounds().intersect(&self.scissor)?,
+            shape: Shape::Triangle(outline.edges()),
+            planes: outline.planes().biased(self.call.state.depth.bias),
         })
     }
 
-    /// `D3DRS_ZBIAS` brings what is drawn nearer.
-    pub(super) fn biased(&self, mut planes: Planes) -> Planes {
-        planes.at[Planes::Z] -= f64::from(self.call.state.depth.bias) * DEPTH_BIAS_STEP;
-        planes
+    fn to_screen(&self, corner: &ClipVertex) -> Corner {
+        Corner::new(&self.projection.spot(corner.position), corner.shares)
+    }
+}
+
+/// A triangle on the screen, its corners clockwise.
+pub(super) struct Outline([Corner; 3]);
+
+impl Outline {
+    /// Of corners in any order.
+    #[inline(always)]
+    pub(super) fn new(mut corners: [Corner; 3]) -> Self {
+        if doubled_area(corners.each_ref()) < 0 {
+            corners.swap(1, 2);
+        }
+        Self(corners)
     }
 
-    /// Division by w and the viewport transform of Direct3D 8.
-    fn to_screen(&self, corner: &ClipVertex) -> Corner {
-        let [x, y, z, w] = corner.position;
-        // Cuts near w = 0 are rounded too; whatever comes of that lies outside of every target.
-        let w = w.max(f64::from(f32::MIN_POSITIVE));
-        let viewport = &self.viewport;
-        let snap = |v: f64| {
-            let v = if v.is_nan() { 0.0 } else { v };
-            // To the nearest subpixel. Made positive first, so that cutting off the fraction rounds downwards.
-            let shift = 4.0 * GUARD * SUBPIXELS as f64;
-            (v.clamp(-2.0 * GUARD, 2.0 * GUARD) * SUBPIXELS as f64 + 0.5 + shift) as i64
-                - shift as i64
-        };
-        let (min_z, max_z) = (f64::from(viewport.min_z), f64::from(viewport.max_z));
-        Corner {
-            x: snap(f64::from(viewport.x) + (x / w + 1.0) * f64::from(viewport.width) / 2.0),
-            y: snap(f64::from(viewport.y) + (1.0 - y / w) * f64::from(viewport.height) / 2.0),
-            z: min_z + (z / w).clamp(0.0, 1.0) * (max_z - min_z),
-            w,
-            shares: corner.shares,
-        }
+    /// The pixels that may be covered.
+    #[inline(always)]
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::around(&self.0)
+    }
+
+    #[inline(always)]
+    pub(super) fn edges(&self) -> [Edge; 3] {
+        let [a, b, c] = &self.0;
+        [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)]
+    }
+
+    #[inline(always)]
+    pub(super) fn planes(&self) -> Planes {
+        let corners = &self.0;
+        let area = doubled_area(corners.each_ref()) as f64 / (SUBPIXELS * SUBPIXELS) as f64;
+        let [[x0, y0], [x1, y1], [x2, y2]] = corners.each_ref().map(Corner::pixels);
+        Planes::new(corners, |[v0, v1, v2]| {
+            let dx: [f64; 4] = std::array::from_fn(|i| {
+                ((v1[i] - v0[i]) * (y2 - y0) - (v2[i] - v0[i]) * (y1 - y0)) / area
+            });
+            let dy: [f64; 4] = std::array::from_fn(|i| {
+                ((v2[i] - v0[i]) * (x1 - x0) - (v1[i] - v0[i]) * (x2 - x0)) / area
+            });
+            Linear {
+                at: std::array::from_fn(|i| v0[i] - dx[i] * x0 - dy[i] * y0),
+                dx,
+                dy,
+            }
+        })
     }
 }
 
 /// Twice the area in square subpixels, positive for clockwise triangles on a screen whose y points down.
-fn doubled_area(corners: [&Corner; 3]) -> i64 {
-    let [a, b, c] = corners;
-    (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
+#[inline(always)]
+pub(super) fn doubled_area(corners: [&Corner; 3]) -> i64 {
+    let [a, b, c] = corners.map(|corner| [corner.x, corner.y]);
+    (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 }

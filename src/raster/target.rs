@@ -139,12 +139,54 @@ impl fmt::Display for TooManyPlanes {
 impl std::error::Error for TooManyPlanes {}
 
 /// One tile; pixels in the order of [`place_in_tile`].
+///
+/// To clear a tile is only noted down, and done by whoever draws into it first: then it is in the cache of the core that
+/// needs it, and what nobody draws into is never touched.
 pub(super) struct Tile {
+    /// What all pixels hold in truth, whatever stands in the buffers.
+    cleared: Option<Stored>,
     pub(super) color: Box<[[u8; 4]]>,
     /// The colours of the further planes.
     pub(super) more: Vec<Box<[[u8; 4]]>>,
     pub(super) depth: Box<[f32]>,
     pub(super) stencil: Box<[u8]>,
+}
+
+impl Tile {
+    /// A tile that holds this, with one plane.
+    fn new(holds: Stored) -> Self {
+        // Memory of zeros costs nothing until it is used.
+        Self {
+            cleared: Some(holds),
+            color: vec![[0; 4]; TILE_PIXELS].into_boxed_slice(),
+            more: Vec::new(),
+            depth: vec![0.0; TILE_PIXELS].into_boxed_slice(),
+            stencil: vec![0; TILE_PIXELS].into_boxed_slice(),
+        }
+    }
+
+    /// The same tile once its buffers hold what it holds. Whoever looks into them needs that.
+    pub(super) fn settled(&mut self) -> &mut Self {
+        if let Some(holds) = self.cleared.take() {
+            self.color.fill(holds.color);
+            for plane in &mut self.more {
+                plane.fill(holds.color);
+            }
+            self.depth.fill(holds.depth);
+            self.stencil.fill(holds.stencil);
+        }
+        self
+    }
+
+    /// What a pixel holds in a plane; none if there is no such plane, or no such pixel.
+    fn color(&self, plane: usize, pixel: usize) -> Option<[u8; 4]> {
+        let plane = match plane.checked_sub(1) {
+            None => &self.color,
+            Some(further) => self.more.get(further)?,
+        };
+        let stored = plane.get(pixel)?;
+        Some(self.cleared.map_or(*stored, |holds| holds.color))
+    }
 }
 
 /// A colour, depth and stencil buffer of one size. Pixel (0, 0) is the upper left one.
@@ -193,15 +235,12 @@ impl Target {
         {
             return Err(TargetTooLarge { width, height });
         }
-        let color = format.held([0; 4]);
-        let tiles = (0..count)
-            .map(|_| Tile {
-                color: vec![color; TILE_PIXELS].into_boxed_slice(),
-                more: Vec::new(),
-                depth: vec![1.0; TILE_PIXELS].into_boxed_slice(),
-                stencil: vec![0; TILE_PIXELS].into_boxed_slice(),
-            })
-            .collect();
+        let surface = Surface {
+            format,
+            ..Surface::default()
+        };
+        let holds = surface.stored();
+        let tiles = (0..count).map(|_| Tile::new(holds)).collect();
         Ok(Self {
             width,
             height,
@@ -239,14 +278,24 @@ impl Target {
     /// Sets every pixel of the buffers that are given a value: colour as red, green, blue, alpha; depth taken into 0 to 1
     /// (NaN is 0); stencil.
     pub fn clear(&mut self, color: Option<[u8; 4]>, depth: Option<f32>, stencil: Option<u8>) {
+        let color = color.map(|color| self.format.held(color));
+        let depth = depth.map(super::unit);
         for tile in &mut self.tiles {
+            if let (Some(color), Some(depth), Some(stencil)) = (color, depth, stencil) {
+                tile.cleared = Some(Stored {
+                    color,
+                    depth,
+                    stencil,
+                });
+                continue;
+            }
+            let tile = tile.settled();
             if let Some(color) = color {
-                let color = self.format.held(color);
                 tile.color.fill(color);
                 tile.more.iter_mut().for_each(|plane| plane.fill(color));
             }
             if let Some(depth) = depth {
-                tile.depth.fill(super::unit(depth));
+                tile.depth.fill(depth);
             }
             if let Some(stencil) = stencil {
                 tile.stencil.fill(stencil);
@@ -257,19 +306,21 @@ impl Target {
     /// Red, green, blue and alpha of a pixel; `None` outside.
     pub fn color(&self, x: u32, y: u32) -> Option<[u8; 4]> {
         let (tile, pixel) = self.locate(x, y)?;
-        tile.color.get(pixel).copied()
+        tile.color(0, pixel)
     }
 
     /// The depth of a pixel, 0 to 1; `None` outside.
     pub fn depth(&self, x: u32, y: u32) -> Option<f32> {
         let (tile, pixel) = self.locate(x, y)?;
-        tile.depth.get(pixel).copied()
+        let stored = tile.depth.get(pixel)?;
+        Some(tile.cleared.map_or(*stored, |holds| holds.depth))
     }
 
     /// The stencil value of a pixel; `None` outside.
     pub fn stencil(&self, x: u32, y: u32) -> Option<u8> {
         let (tile, pixel) = self.locate(x, y)?;
-        tile.stencil.get(pixel).copied()
+        let stored = tile.stencil.get(pixel)?;
+        Some(tile.cleared.map_or(*stored, |holds| holds.stencil))
     }
 
     /// Whether a pixel lies inside a triangle, together with its neighbours to the left and right, above and below: depth
@@ -326,13 +377,9 @@ impl Target {
         for (y, row) in (0..self.height).zip(rows) {
             let tiles = self.tiles.iter().skip((y / TILE) as usize * across);
             for (tile, pixels) in tiles.zip(row.chunks_mut(4 * TILE as usize)) {
-                let plane = match number.checked_sub(1) {
-                    None => Some(&tile.color),
-                    Some(further) => tile.more.get(further),
-                };
                 for (x, pixel) in (0..).zip(pixels.as_chunks_mut().0) {
-                    if let Some(stored) = plane.and_then(|plane| plane.get(place_in_tile(x, y))) {
-                        *pixel = *stored;
+                    if let Some(stored) = tile.color(number, place_in_tile(x, y)) {
+                        *pixel = stored;
                     }
                 }
             }
@@ -353,7 +400,7 @@ impl Target {
         self.width.div_ceil(TILE)
     }
 
-    /// The tiles, row by row.
+    /// The tiles, row by row, before they are [settled](Tile::settled).
     pub(super) fn tiles_mut(&mut self) -> &mut [Tile] {
         &mut self.tiles
     }
@@ -381,6 +428,7 @@ mod tests {
     #[test]
     fn what_is_inside() {
         let mut target = Target::new(9, 4, ColorFormat::A8R8G8B8).unwrap();
+        target.tiles[0].settled();
         for (x, y) in (0..TILE * TILE).map(|at| (at % TILE, at / TILE)) {
             let step = if x > 4 { 0.125 } else { 0.0 };
             let depth = 0.25 + x as f32 / 64.0 + y as f32 / 128.0 + step;

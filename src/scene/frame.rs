@@ -54,6 +54,9 @@ impl PreparedFrame<'_> {
     /// # Errors
     /// [`RenderError::Draw`].
     pub fn draw(&mut self) -> Result<(), RenderError> {
+        let holds = self.pass.surface.stored();
+        let (color, depth, stencil) = (holds.color, holds.depth, holds.stencil);
+        self.picture.clear(Some(color), Some(depth), Some(stencil));
         self.renderer.pass(&self.pass, None, &mut self.picture)
     }
 

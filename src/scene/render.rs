@@ -354,7 +354,7 @@ impl<'a, 'p> Renderer<'a, 'p> {
         Ok(target)
     }
 
-    /// Clears a target and draws a pass into it.
+    /// Draws a pass into a target, which was cleared before.
     pub(super) fn pass(
         &mut self,
         pass: &Pass<'_>,

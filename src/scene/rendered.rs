@@ -10,7 +10,7 @@ use super::prepare::{Pass, PreparedDraw};
 use super::render::RenderError;
 use super::{Scene, TextureSource};
 use crate::exec::{Environment, Stage};
-use crate::raster::{BatchProgram, DrawCall, PixelProgram, RenderState, Vertex, shade_vertices};
+use crate::raster::{BatchProgram, DrawCall, PixelProgram, RenderState, Vertices, shade_vertices};
 use crate::texture::load::cube_from_faces;
 use crate::texture::{Texture, TextureError};
 
@@ -96,7 +96,7 @@ impl<'a> Rendered<'a> {
     pub(super) fn with_vertices<'s>(
         &'s self,
         draw: &'s PreparedDraw<'_>,
-        vertices: Cow<'s, [Vertex]>,
+        vertices: Cow<'s, Vertices>,
     ) -> ShadedDraw<'s> {
         let environment = Environment {
             constants: draw.pixel_constants.clone(),
@@ -124,7 +124,7 @@ impl<'a> Rendered<'a> {
 }
 
 /// Runs the vertex shader of a draw over its whole mesh.
-pub(super) fn shade(draw: &PreparedDraw<'_>) -> Vec<Vertex> {
+pub(super) fn shade(draw: &PreparedDraw<'_>) -> Vertices {
     shade_vertices(
         &draw.vertex.kernel,
         &draw.vertex.plan,
@@ -138,7 +138,7 @@ pub(super) fn shade(draw: &PreparedDraw<'_>) -> Vec<Vertex> {
 #[derive(Clone, Debug)]
 pub struct ShadedDraw<'a> {
     draw: &'a PreparedDraw<'a>,
-    vertices: Cow<'a, [Vertex]>,
+    vertices: Cow<'a, Vertices>,
     environment: Environment<'a>,
 }
 
@@ -149,7 +149,7 @@ impl<'a> ShadedDraw<'a> {
     }
 
     /// What the vertex shader left of each vertex of the mesh.
-    pub fn vertices(&self) -> &[Vertex] {
+    pub fn vertices(&self) -> &Vertices {
         &self.vertices
     }
 
@@ -183,13 +183,13 @@ impl<'a> ShadedDraw<'a> {
     }
 }
 
-/// At most so many shaded vertices are kept. They take about 200 bytes each.
+/// At most so many shaded vertices are kept. They take at most 184 bytes each.
 const MOST_KEPT: usize = 1 << 20;
 
 /// The vertices of draws whose vertex shader has run, for those who ask again.
 pub(super) struct ShadedMeshes {
     /// By pass and draw.
-    meshes: Vec<Vec<OnceLock<Vec<Vertex>>>>,
+    meshes: Vec<Vec<OnceLock<Vertices>>>,
     /// How many more may be kept.
     room: AtomicUsize,
 }
@@ -210,7 +210,7 @@ impl ShadedMeshes {
         pass: usize,
         place: usize,
         draw: &PreparedDraw<'_>,
-    ) -> Cow<'_, [Vertex]> {
+    ) -> Cow<'_, Vertices> {
         let Some(mesh) = self.meshes.get(pass).and_then(|draws| draws.get(place)) else {
             return Cow::Owned(shade(draw));
         };

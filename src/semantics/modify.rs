@@ -109,7 +109,7 @@ impl Finish {
 pub fn flush(x: f32) -> f32 {
     // Written so that NaN and both zeros pass.
     if x.abs() < f32::MIN_POSITIVE {
-        0.0 * x
+        0.0_f32.copysign(x)
     } else {
         x
     }

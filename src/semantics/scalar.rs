@@ -2,31 +2,81 @@
 
 use crate::policy::OfZero;
 
-/// s0 · s1; +0 if either factor is zero, even against infinity and NaN.
+/// s0 · s1; +0 if either factor is zero, even against infinity and NaN, or if the product is nearer to zero than to any
+/// other number.
 ///
 /// The GeForce 3 demanded it and the hardware of the next generation kept it.
 #[inline(always)]
 pub fn mul(a: f32, b: f32) -> f32 {
-    if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
+    // Of a zero the sum makes the positive one, everything else it leaves as it is.
+    if a == 0.0 || b == 0.0 {
+        0.0
+    } else {
+        a * b + 0.0
+    }
 }
 
-/// s0 · s1 as [`ZeroProduct`](crate::policy::ZeroProduct) says: that of IEEE 754, or [`mul`]. The functions below that have
-/// the same parameter make their products so.
-#[inline(always)]
-pub fn product<const IEEE: bool>(a: f32, b: f32) -> f32 {
-    if IEEE { a * b } else { mul(a, b) }
+/// How the operations below that have such a parameter make their products. A
+/// [`ZeroProduct`](crate::policy::ZeroProduct) says which is meant.
+pub trait Products {
+    /// s0 · s1.
+    fn product(a: f32, b: f32) -> f32;
+
+    /// s0 · s1 where it is added to a sum that is not −0: the sign of a zero does not matter there.
+    #[inline(always)]
+    fn further(a: f32, b: f32) -> f32 {
+        Self::product(a, b)
+    }
+}
+
+/// Products of IEEE 754.
+#[derive(Clone, Copy, Debug)]
+pub struct Ieee;
+
+/// Products with the rule of [`mul`].
+#[derive(Clone, Copy, Debug)]
+pub struct ZeroWins;
+
+/// Products with the rule of [`mul`] of factors that are neither infinite nor NaN: the same numbers for less work.
+#[derive(Clone, Copy, Debug)]
+pub struct OfFinite;
+
+impl Products for Ieee {
+    #[inline(always)]
+    fn product(a: f32, b: f32) -> f32 {
+        a * b
+    }
+}
+
+impl Products for ZeroWins {
+    #[inline(always)]
+    fn product(a: f32, b: f32) -> f32 {
+        mul(a, b)
+    }
+}
+
+impl Products for OfFinite {
+    #[inline(always)]
+    fn product(a: f32, b: f32) -> f32 {
+        a * b + 0.0
+    }
+
+    #[inline(always)]
+    fn further(a: f32, b: f32) -> f32 {
+        a * b
+    }
 }
 
 /// s0 · s1 + s2, rounded after the product.
 #[inline(always)]
-pub fn mad<const IEEE: bool>(a: f32, b: f32, c: f32) -> f32 {
-    product::<IEEE>(a, b) + c
+pub fn mad<P: Products>(a: f32, b: f32, c: f32) -> f32 {
+    P::product(a, b) + c
 }
 
 /// s0 · s1 + (1 − s0) · s2: exact at both ends.
 #[inline(always)]
-pub fn lrp<const IEEE: bool>(a: f32, b: f32, c: f32) -> f32 {
-    product::<IEEE>(a, b) + product::<IEEE>(1.0 - a, c)
+pub fn lrp<P: Products>(a: f32, b: f32, c: f32) -> f32 {
+    P::product(a, b) + P::further(1.0 - a, c)
 }
 
 /// s0 < s1 ? s0 : s1; s1 where either is NaN.

@@ -29,26 +29,26 @@ fn a_product_with_zero_is_zero() {
         same(mul(other, 0.0), 0.0);
     }
     same(mul(-2.0, 3.0), -6.0);
-    same(mad::<false>(0.0, INF, 5.0), 5.0);
+    same(mad::<ZeroWins>(0.0, INF, 5.0), 5.0);
 }
 
 #[test]
 fn products_of_ieee_know_nan() {
-    same(product::<true>(0.0, INF), NAN);
-    same(product::<true>(-0.0, 3.0), -0.0);
-    same(mad::<true>(0.0, INF, 5.0), NAN);
-    same(lrp::<true>(1.0, 2.0, INF), NAN);
-    same(dp3::<true>([INF, 2.0, 0.0], [0.0, 3.0, 1.0]), NAN);
+    same(Ieee::product(0.0, INF), NAN);
+    same(Ieee::product(-0.0, 3.0), -0.0);
+    same(mad::<Ieee>(0.0, INF, 5.0), NAN);
+    same(lrp::<Ieee>(1.0, 2.0, INF), NAN);
+    same(dp3::<Ieee>([INF, 2.0, 0.0], [0.0, 3.0, 1.0]), NAN);
     same(
-        dp4::<true>([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]),
+        dp4::<Ieee>([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]),
         88.0,
     );
     same4(
-        dst::<true>([0.0, INF, 2.0, 0.0], [0.0, 0.0, 0.0, 3.0]),
+        dst::<Ieee>([0.0, INF, 2.0, 0.0], [0.0, 0.0, 0.0, 3.0]),
         [1.0, NAN, 2.0, 3.0],
     );
     // 2 ^ (0 · ∞)
-    same(lit::<true>([1.0, INF, 0.0, 0.0])[2], NAN);
+    same(lit::<Ieee>([1.0, INF, 0.0, 0.0])[2], NAN);
 }
 
 #[test]
@@ -64,17 +64,17 @@ fn infinity_of_zero_where_it_is_asked_for() {
 fn mad_rounds_the_product_first() {
     // (1 + 2^-12)² = 1 + 2^-11 + 2^-24: the last term is lost when the product is rounded, kept when it is fused.
     let a = 1.0 + 2f32.powi(-12);
-    same(mad::<false>(a, a, -1.0), 2f32.powi(-11));
+    same(mad::<ZeroWins>(a, a, -1.0), 2f32.powi(-11));
 }
 
 #[test]
 fn lrp_is_exact_at_both_ends() {
-    same(lrp::<false>(0.0, 1e30, 0.3), 0.3);
-    same(lrp::<false>(1.0, 0.3, 1e30), 0.3);
+    same(lrp::<ZeroWins>(0.0, 1e30, 0.3), 0.3);
+    same(lrp::<ZeroWins>(1.0, 0.3, 1e30), 0.3);
     // 0.25·8 + 0.75·4 = 5
-    same(lrp::<false>(0.25, 8.0, 4.0), 5.0);
+    same(lrp::<ZeroWins>(0.25, 8.0, 4.0), 5.0);
     // Outside of 0…1 it extrapolates: 2·3 + (−1)·1 = 5
-    same(lrp::<false>(2.0, 3.0, 1.0), 5.0);
+    same(lrp::<ZeroWins>(2.0, 3.0, 1.0), 5.0);
 }
 
 #[test]
@@ -159,42 +159,51 @@ fn exponentials_and_logarithms() {
 #[test]
 fn dots_sum_from_the_left() {
     // 1·4 + 2·5 + 3·6 = 32, + 7·8 = 88
-    same(dp3::<false>([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), 32.0);
+    same(dp3::<ZeroWins>([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), 32.0);
     same(
-        dp4::<false>([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]),
+        dp4::<ZeroWins>([1.0, 2.0, 3.0, 7.0], [4.0, 5.0, 6.0, 8.0]),
         88.0,
     );
     // (1e8 − 1e8) + 1 = 1, while 1e8 + (−1e8 + 1) would be 0 in 32 bits.
-    same(dp3::<false>([1e8, -1e8, 1.0], [1.0, 1.0, 1.0]), 1.0);
-    same(dp3::<false>([INF, 2.0, 0.0], [0.0, 3.0, NAN]), 6.0);
+    same(dp3::<ZeroWins>([1e8, -1e8, 1.0], [1.0, 1.0, 1.0]), 1.0);
+    same(dp3::<ZeroWins>([INF, 2.0, 0.0], [0.0, 3.0, NAN]), 6.0);
 }
 
 #[test]
 fn distance_vector() {
     // d = 4: (–, 16, 16, –) and (–, 1/4, –, 1/4) give (1, 4, 16, 1/4).
     same4(
-        dst::<false>([NAN, 16.0, 16.0, NAN], [NAN, 0.25, NAN, 0.25]),
+        dst::<ZeroWins>([NAN, 16.0, 16.0, NAN], [NAN, 0.25, NAN, 0.25]),
         [1.0, 4.0, 16.0, 0.25],
     );
     same4(
-        dst::<false>([0.0, INF, INF, 0.0], [0.0, 0.0, 0.0, NAN]),
+        dst::<ZeroWins>([0.0, INF, INF, 0.0], [0.0, 0.0, 0.0, NAN]),
         [1.0, 0.0, INF, NAN],
     );
 }
 
 #[test]
 fn lighting_coefficients() {
-    same4(lit::<false>([0.5, 0.25, 9.0, 2.0]), [1.0, 0.5, 0.0625, 1.0]);
-    same4(lit::<false>([-0.5, 0.25, 0.0, 2.0]), [1.0, 0.0, 0.0, 1.0]);
-    same4(lit::<false>([0.5, -0.25, 0.0, 2.0]), [1.0, 0.5, 0.0, 1.0]);
-    same4(lit::<false>([0.5, 0.25, 0.0, 0.0]), [1.0, 0.5, 1.0, 1.0]);
-    same4(lit::<false>([0.0, 0.0, 0.0, 0.0]), [1.0, 0.0, 0.0, 1.0]);
-    same4(lit::<false>([0.5, 0.25, 0.0, NAN]), [1.0, 0.5, 1.0, 1.0]);
-    same4(lit::<false>([INF, INF, 0.0, 3.0]), [1.0, INF, INF, 1.0]);
-    same4(lit::<false>([NAN, 1.0, 0.0, 1.0]), [1.0, 0.0, 0.0, 1.0]);
+    same4(
+        lit::<ZeroWins>([0.5, 0.25, 9.0, 2.0]),
+        [1.0, 0.5, 0.0625, 1.0],
+    );
+    same4(
+        lit::<ZeroWins>([-0.5, 0.25, 0.0, 2.0]),
+        [1.0, 0.0, 0.0, 1.0],
+    );
+    same4(
+        lit::<ZeroWins>([0.5, -0.25, 0.0, 2.0]),
+        [1.0, 0.5, 0.0, 1.0],
+    );
+    same4(lit::<ZeroWins>([0.5, 0.25, 0.0, 0.0]), [1.0, 0.5, 1.0, 1.0]);
+    same4(lit::<ZeroWins>([0.0, 0.0, 0.0, 0.0]), [1.0, 0.0, 0.0, 1.0]);
+    same4(lit::<ZeroWins>([0.5, 0.25, 0.0, NAN]), [1.0, 0.5, 1.0, 1.0]);
+    same4(lit::<ZeroWins>([INF, INF, 0.0, 3.0]), [1.0, INF, INF, 1.0]);
+    same4(lit::<ZeroWins>([NAN, 1.0, 0.0, 1.0]), [1.0, 0.0, 0.0, 1.0]);
     // The power is clamped to 127.9961: 2^127.9961 is finite, 2^1000 is not.
-    assert!(lit::<false>([1.0, 2.0, 0.0, 1000.0])[2].is_finite());
-    assert!(lit::<false>([1.0, 2.0, 0.0, 1000.0])[2] > 3e38);
+    assert!(lit::<ZeroWins>([1.0, 2.0, 0.0, 1000.0])[2].is_finite());
+    assert!(lit::<ZeroWins>([1.0, 2.0, 0.0, 1000.0])[2] > 3e38);
 }
 
 #[test]

@@ -1,26 +1,26 @@
 //! Operations that look at several components at once.
 
-use super::scalar::{exp, log, mul, partial_precision, product, saturate};
+use super::scalar::{Products, ZeroWins, exp, log, mul, partial_precision, saturate};
 use crate::policy::{Model, OfZero};
 
 /// s0.x·s1.x + s0.y·s1.y + s0.z·s1.z, summed from left to right.
 #[inline(always)]
-pub fn dp3<const IEEE: bool>(a: [f32; 3], b: [f32; 3]) -> f32 {
-    let p = |i: usize| product::<IEEE>(a[i], b[i]);
-    p(0) + p(1) + p(2)
+pub fn dp3<P: Products>(a: [f32; 3], b: [f32; 3]) -> f32 {
+    let p = |i: usize| P::further(a[i], b[i]);
+    P::product(a[0], b[0]) + p(1) + p(2)
 }
 
 /// [`dp3`] plus s0.w·s1.w.
 #[inline(always)]
-pub fn dp4<const IEEE: bool>(a: [f32; 4], b: [f32; 4]) -> f32 {
-    let p = |i: usize| product::<IEEE>(a[i], b[i]);
-    p(0) + p(1) + p(2) + p(3)
+pub fn dp4<P: Products>(a: [f32; 4], b: [f32; 4]) -> f32 {
+    let p = |i: usize| P::further(a[i], b[i]);
+    P::product(a[0], b[0]) + p(1) + p(2) + p(3)
 }
 
 /// (1, s0.y·s1.y, s0.z, s1.w): from (–, d², d², –) and (–, 1/d, –, 1/d) the attenuation terms (1, d, d², 1/d).
 #[inline(always)]
-pub fn dst<const IEEE: bool>(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
-    [1.0, product::<IEEE>(a[1], b[1]), a[2], b[3]]
+pub fn dst<P: Products>(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
+    [1.0, P::product(a[1], b[1]), a[2], b[3]]
 }
 
 /// The bound of the exponent of [`lit`]: 128 − 1/256.
@@ -29,7 +29,7 @@ const LIT_POWER: f32 = 127.996_09;
 /// Diffuse and specular coefficients: (1, x, y^w, 1) for positive x = N·L, y = N·H and the power w, clamped to
 /// ±127.9961. y is 0 unless x is positive, z unless both are; a power that is NaN counts as 0.
 #[inline(always)]
-pub fn lit<const IEEE: bool>(a: [f32; 4]) -> [f32; 4] {
+pub fn lit<P: Products>(a: [f32; 4]) -> [f32; 4] {
     let [x, y, _, w] = a;
     let power = if w.is_nan() {
         0.0
@@ -38,7 +38,7 @@ pub fn lit<const IEEE: bool>(a: [f32; 4]) -> [f32; 4] {
     };
     let lit = x > 0.0;
     // Of 0 the logarithm does not matter.
-    let specular = exp(product::<IEEE>(power, log(OfZero::Largest, y)));
+    let specular = exp(P::product(power, log(OfZero::Largest, y)));
     [
         1.0,
         if lit { x } else { 0.0 },
@@ -86,11 +86,11 @@ pub fn logp(of_zero: OfZero, x: f32) -> [f32; 4] {
 /// zero.
 #[inline(always)]
 pub fn reflect(n: [f32; 3], e: [f32; 3]) -> [f32; 3] {
-    let square = dp3::<false>(n, n);
+    let square = dp3::<ZeroWins>(n, n);
     let scale = if square == 0.0 {
         0.0
     } else {
-        2.0 * dp3::<false>(n, e) / square
+        2.0 * dp3::<ZeroWins>(n, e) / square
     };
     [
         mul(scale, n[0]) - e[0],

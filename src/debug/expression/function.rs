@@ -45,7 +45,7 @@ static FUNCTIONS: [Function; 21] = [
     row("log", Body::One(|x| semantics::log(OfZero::Largest, x))),
     row("slt", Body::Two(semantics::slt)),
     row("sge", Body::Two(semantics::sge)),
-    row("lrp", Body::Three(semantics::lrp::<false>)),
+    row("lrp", Body::Three(semantics::lrp::<semantics::ZeroWins>)),
     row("cnd", Body::Three(semantics::cnd)),
     row("cmp", Body::Three(semantics::cmp)),
 ];

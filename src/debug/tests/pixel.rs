@@ -92,10 +92,8 @@ fn agrees(rendering: &Rendering<'_>, subject: PixelSubject<'_>) {
         };
         let registers = run.registers(usize::MAX);
         let position = registers.slot(Slot::POSITION, 0);
-        assert_eq!(
-            position,
-            shaded.vertices()[vertex as usize].position.to_array()
-        );
+        let shaded = shaded.vertices().get(vertex as usize).unwrap();
+        assert_eq!(position, shaded.position.to_array());
     }
     let batch = &event.fragment.batch;
     for moment in pixel

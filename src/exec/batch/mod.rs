@@ -4,6 +4,7 @@
 //! instructions the loops are compiled. The outputs have the same bits as those of a [`Machine`](super::Machine) that runs
 //! the kernel, whatever the number of lanes.
 
+mod reach;
 mod rows;
 mod samples;
 mod step;
@@ -11,8 +12,10 @@ mod step;
 mod tests;
 
 use super::environment::Environment;
-use crate::kernel::{Plan, Slot, UniformValue};
+use crate::kernel::{Plan, RowOp, Slot, UniformValue};
+use crate::semantics::flush;
 use crate::simd::{Simd, Task};
+use reach::Reach;
 use rows::Rows;
 use samples::Samples;
 
@@ -22,6 +25,9 @@ pub struct Batch<const N: usize> {
     rows: Rows<N>,
     samples: Samples<N>,
     killed: [bool; N],
+    reach: Reach,
+    /// Whether all inputs, and the samples so far, are as small as `reach` wants them.
+    within: bool,
 }
 
 impl<const N: usize> Default for Batch<N> {
@@ -30,6 +36,8 @@ impl<const N: usize> Default for Batch<N> {
             rows: Rows::default(),
             samples: Samples::default(),
             killed: [false; N],
+            reach: Reach::default(),
+            within: false,
         }
     }
 }
@@ -51,7 +59,9 @@ impl<const N: usize> Batch<N> {
         }
         self.samples.load(plan, environment);
         // Once a draw: not worth a copy of its own for each set of instructions.
+        self.within = false;
         self.steps(Simd::Baseline, plan, environment, 0..plan.once, N);
+        self.reach = Reach::new(plan, &self.rows.first());
     }
 
     /// Loads an input: `component(slot, c)` is a component of a register in all lanes. It is asked only for what the shader
@@ -62,11 +72,21 @@ impl<const N: usize> Batch<N> {
         plan: &Plan,
         component: impl Fn(Slot, usize) -> Option<&'r [f32; N]>,
     ) {
+        let mut greatest = [0; N];
         for input in &plan.inputs {
-            if let Some(values) = component(input.slot, usize::from(input.component)) {
-                self.rows.copy(input.row, values, input.flushed);
+            let Some(values) = component(input.slot, usize::from(input.component)) else {
+                continue;
+            };
+            reach::raise(&mut greatest, values);
+            let mut loaded = *values;
+            if input.flushed {
+                for number in &mut loaded {
+                    *number = flush(*number);
+                }
             }
+            self.rows.set(input.row, &loaded);
         }
+        self.within = self.reach.admits(&greatest);
     }
 
     /// Runs the first `lanes` lanes on the inputs that were loaded; the others may hold anything afterwards.
@@ -104,6 +124,7 @@ impl<const N: usize> Batch<N> {
     ) {
         let first = steps.start;
         for (number, step) in (first..).zip(plan.steps.get(steps).unwrap_or_default()) {
+            let finite = self.within && self.reach.is_finite(number);
             step::take(
                 &mut self.rows,
                 &mut self.killed,
@@ -112,7 +133,16 @@ impl<const N: usize> Batch<N> {
                 environment,
                 &mut self.samples,
                 (number, lanes, simd),
+                finite,
             );
+            if let RowOp::Sample(_) = step.op {
+                let results = plan.items(step).flat_map(|(results, _)| results);
+                let mut greatest = [0; N];
+                for row in results.filter_map(|row| self.rows.get(*row)) {
+                    reach::raise(&mut greatest, row);
+                }
+                self.within &= self.reach.admits(&greatest);
+            }
         }
     }
 

@@ -6,10 +6,10 @@ use crate::exec::environment::{Environment, STAGES};
 use crate::isa::{ResultModifier, SourceModifier};
 use crate::kernel::{NO_ROW, Plan, RowFinish, RowOp, RowStep};
 use crate::policy::{Model, ZeroProduct};
-use crate::semantics::{self, Finish};
+use crate::semantics::{self, Finish, Ieee, OfFinite, Products, ZeroWins};
 use crate::simd::Simd;
 
-/// Takes a step. The lanes from `lanes` on may hold anything afterwards.
+/// Takes a step. The lanes from `lanes` on may hold anything afterwards. `finite`: all that it reads is.
 #[inline(always)]
 pub(super) fn take<const N: usize>(
     rows: &mut Rows<N>,
@@ -19,8 +19,14 @@ pub(super) fn take<const N: usize>(
     environment: &Environment<'_>,
     samples: &mut Samples<N>,
     (sample, lanes, simd): (usize, usize, Simd),
+    finite: bool,
 ) {
     let ieee = plan.policies.zero_product == ZeroProduct::Ieee;
+    let factors = match (ieee, finite) {
+        (true, _) => Factors::Ieee,
+        (false, true) => Factors::Finite,
+        (false, false) => Factors::Any,
+    };
     let of_zero = plan.policies.of_zero;
     let bump = |stage: u8| environment.stages[usize::from(stage) % STAGES].bump;
     let mut on = On { rows, plan, step };
@@ -39,12 +45,36 @@ pub(super) fn take<const N: usize>(
         RowOp::Operand(model, modifier) => on.items(|[a]| is::operand(model, modifier, a)),
         RowOp::Add => on.each(|[a, b]| a + b),
         RowOp::Sub => on.each(|[a, b]| a - b),
-        RowOp::Mul if ieee => on.seldom(|[a, b]| is::product::<true>(a, b)),
-        RowOp::Mul => on.each(|[a, b]| is::product::<false>(a, b)),
-        RowOp::Mad if ieee => on.seldom(|[a, b, c]| is::mad::<true>(a, b, c)),
-        RowOp::Mad => on.each(|[a, b, c]| is::mad::<false>(a, b, c)),
-        RowOp::Lrp if ieee => on.seldom(|[a, b, c]| is::lrp::<true>(a, b, c)),
-        RowOp::Lrp => on.each(|[a, b, c]| is::lrp::<false>(a, b, c)),
+        RowOp::Mul => on.products(
+            factors,
+            |[a, b]| Ieee::product(a, b),
+            |[a, b]| OfFinite::product(a, b),
+            |[a, b]| ZeroWins::product(a, b),
+        ),
+        RowOp::Mad => on.products(
+            factors,
+            |[a, b, c]| is::mad::<Ieee>(a, b, c),
+            |[a, b, c]| is::mad::<OfFinite>(a, b, c),
+            |[a, b, c]| is::mad::<ZeroWins>(a, b, c),
+        ),
+        RowOp::Lrp => on.products(
+            factors,
+            |[a, b, c]| is::lrp::<Ieee>(a, b, c),
+            |[a, b, c]| is::lrp::<OfFinite>(a, b, c),
+            |[a, b, c]| is::lrp::<ZeroWins>(a, b, c),
+        ),
+        RowOp::Dp3 => on.products(
+            factors,
+            |[a, b, c, d, e, f]| is::dp3::<Ieee>([a, b, c], [d, e, f]),
+            |[a, b, c, d, e, f]| is::dp3::<OfFinite>([a, b, c], [d, e, f]),
+            |[a, b, c, d, e, f]| is::dp3::<ZeroWins>([a, b, c], [d, e, f]),
+        ),
+        RowOp::Dp4 => on.products(
+            factors,
+            |[a, b, c, d, e, f, g, h]| is::dp4::<Ieee>([a, b, c, d], [e, f, g, h]),
+            |[a, b, c, d, e, f, g, h]| is::dp4::<OfFinite>([a, b, c, d], [e, f, g, h]),
+            |[a, b, c, d, e, f, g, h]| is::dp4::<ZeroWins>([a, b, c, d], [e, f, g, h]),
+        ),
         RowOp::Min => on.each(|[a, b]| is::min(a, b)),
         RowOp::Max => on.each(|[a, b]| is::max(a, b)),
         RowOp::Slt => on.seldom(|[a, b]| is::slt(a, b)),
@@ -53,14 +83,6 @@ pub(super) fn take<const N: usize>(
         RowOp::Address => on.seldom(|[a]| is::address(a)),
         RowOp::Cnd => on.each(|[a, b, c]| is::cnd(a, b, c)),
         RowOp::Cmp => on.each(|[a, b, c]| is::cmp(a, b, c)),
-        RowOp::Dp3 if ieee => on.seldom(|[a, b, c, d, e, f]| is::dp3::<true>([a, b, c], [d, e, f])),
-        RowOp::Dp3 => on.each(|[a, b, c, d, e, f]| is::dp3::<false>([a, b, c], [d, e, f])),
-        RowOp::Dp4 if ieee => {
-            on.seldom(|[a, b, c, d, e, f, g, h]| is::dp4::<true>([a, b, c, d], [e, f, g, h]))
-        }
-        RowOp::Dp4 => {
-            on.each(|[a, b, c, d, e, f, g, h]| is::dp4::<false>([a, b, c, d], [e, f, g, h]))
-        }
         RowOp::Rcp => on.seldom(|[a]| is::rcp(of_zero, a)),
         RowOp::Rsq => on.seldom(|[a]| is::rsq(of_zero, a)),
         RowOp::Exp => on.seldom(|[a]| is::exp(a)),
@@ -69,9 +91,9 @@ pub(super) fn take<const N: usize>(
         RowOp::LogP(component) => {
             on.seldom(|[a]| is::logp(of_zero, a)[usize::from(component) & 3]);
         }
-        RowOp::LitDiffuse => on.seldom(|[x]| is::lit::<false>([x, 0.0, 0.0, 0.0])[1]),
-        RowOp::LitSpecular if ieee => on.seldom(|[x, y, w]| is::lit::<true>([x, y, 0.0, w])[2]),
-        RowOp::LitSpecular => on.seldom(|[x, y, w]| is::lit::<false>([x, y, 0.0, w])[2]),
+        RowOp::LitDiffuse => on.seldom(|[x]| is::lit::<ZeroWins>([x, 0.0, 0.0, 0.0])[1]),
+        RowOp::LitSpecular if ieee => on.seldom(|[x, y, w]| is::lit::<Ieee>([x, y, 0.0, w])[2]),
+        RowOp::LitSpecular => on.seldom(|[x, y, w]| is::lit::<ZeroWins>([x, y, 0.0, w])[2]),
         RowOp::Divide => on.seldom(|[a, b]| is::divide(a, b)),
         RowOp::Bump(stage, component) => {
             let state = bump(stage);
@@ -112,6 +134,17 @@ pub(super) fn take<const N: usize>(
     }
 }
 
+/// What is known of the factors of products, or that it does not matter.
+#[derive(Clone, Copy)]
+enum Factors {
+    /// Products are those of IEEE 754.
+    Ieee,
+    /// No infinity, no NaN.
+    Finite,
+    /// Nothing.
+    Any,
+}
+
 /// A step with what it works on.
 struct On<'a, const N: usize> {
     rows: &'a mut Rows<N>,
@@ -132,6 +165,22 @@ impl<const N: usize> On<'_, N> {
         }
     }
 
+    /// The same for operations that are made of products, by what is known of these.
+    #[inline(always)]
+    fn products<const S: usize>(
+        &mut self,
+        factors: Factors,
+        ieee: impl Fn([f32; S]) -> f32,
+        finite: impl Fn([f32; S]) -> f32,
+        any: impl Fn([f32; S]) -> f32,
+    ) {
+        match factors {
+            Factors::Ieee => self.seldom(ieee),
+            Factors::Finite => self.each(finite),
+            Factors::Any => self.each(any),
+        }
+    }
+
     /// The same with one loop for everything, for operations that are seldom many.
     #[inline(always)]
     fn seldom<const S: usize>(&mut self, f: impl Fn([f32; S]) -> f32) {
@@ -145,13 +194,11 @@ impl<const N: usize> On<'_, N> {
     #[inline(always)]
     fn items<const S: usize>(&mut self, f: impl Fn([f32; S]) -> f32) {
         for item in self.plan.operands(self.step).chunks_exact(S + 1) {
-            let Some((to, from)) = item.split_first() else {
-                continue;
-            };
-            if let Some(from) = from.first_chunk::<S>()
-                && let Some((to, from)) = self.rows.split(*to, *from)
+            if let Some((to, from)) = item.split_first()
+                && let Some(from) = from.first_chunk::<S>()
+                && let Some(results) = self.rows.each_lane(*from, &f)
             {
-                each_lane(to, from, &f);
+                self.rows.set(*to, &results);
             }
         }
     }
@@ -217,17 +264,5 @@ impl<const N: usize> On<'_, N> {
                 self.rows.update(*row, |x| semantics::held(model, x));
             }
         }
-    }
-}
-
-/// One operation on all lanes.
-#[inline(always)]
-fn each_lane<const N: usize, const S: usize>(
-    to: &mut [f32; N],
-    from: [&[f32; N]; S],
-    f: impl Fn([f32; S]) -> f32,
-) {
-    for (lane, to) in to.iter_mut().enumerate() {
-        *to = f(from.map(|row| row[lane]));
     }
 }

@@ -115,9 +115,10 @@ fn the_viewport_is_a_place_and_a_limit() {
         ..Viewport::full(0, 0)
     };
     let mut target = target();
+    let shaded = Vertices::from(&all[..]);
     let call = DrawCall {
         viewport,
-        ..call(&state, Topology::TriangleList, &all)
+        ..call(&state, Topology::TriangleList, &shaded)
     };
     let statistics = draw(&mut target, &call, &tally()).unwrap();
     // 4 columns of the rows 2 to 15.
@@ -268,10 +269,11 @@ proptest! {
         let (vertices, indices) = net(&moves, reach);
         let state = counting();
         let mut target = Target::new(128, 128, ColorFormat::A8R8G8B8).unwrap();
+        let shaded = Vertices::from(&vertices[..]);
         let call = DrawCall {
             viewport: Viewport::full(128, 128),
             indices: Some(&indices),
-            ..call(&state, Topology::TriangleList, &vertices)
+            ..call(&state, Topology::TriangleList, &shaded)
         };
         let statistics = draw(&mut target, &call, &tally()).unwrap();
         prop_assert_eq!(statistics.written, 128 * 128);

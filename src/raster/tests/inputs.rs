@@ -10,7 +10,8 @@ fn at_pixel(
     x: u32,
     y: u32,
 ) -> (Box<PixelBatch>, usize) {
-    let call = call(state, topology, vertices);
+    let shaded = Vertices::from(vertices);
+    let call = call(state, topology, &shaded);
     let mut fragments: Vec<Fragment> = cover(&call, (16, 16), (x, y)).unwrap().collect();
     assert_eq!(fragments.len(), 1, "pixel {x}, {y}");
     let fragment = fragments.pop().unwrap();
@@ -174,9 +175,10 @@ fn the_depth_range_of_the_viewport_and_the_bias() {
         ..Viewport::full(16, 16)
     };
     let depth = |state: &RenderState| {
+        let shaded = Vertices::from(&triangle[..]);
         let call = DrawCall {
             viewport,
-            ..call(state, Topology::TriangleList, &triangle)
+            ..call(state, Topology::TriangleList, &shaded)
         };
         let fragment = cover(&call, (16, 16), (3, 3)).unwrap().next().unwrap();
         fragment.batch.z[fragment.lane]
@@ -210,9 +212,10 @@ fn fragments_come_in_order_with_their_vertices() {
     ];
     let indices = [0, 1, 2, 3, 3, 3, 4, 5, 6];
     let state = open();
+    let shaded = Vertices::from(&vertices[..]);
     let call = DrawCall {
         indices: Some(&indices),
-        ..call(&state, Topology::TriangleList, &vertices)
+        ..call(&state, Topology::TriangleList, &shaded)
     };
     let found: Vec<_> = cover(&call, (16, 16), (1, 1))
         .unwrap()

@@ -10,7 +10,8 @@ fn fragments(
     vertices: &[Vertex],
     pixel: (u32, u32),
 ) -> Vec<Fragment> {
-    let call = call(state, topology, vertices);
+    let shaded = Vertices::from(vertices);
+    let call = call(state, topology, &shaded);
     cover(&call, (16, 16), pixel).unwrap().collect()
 }
 

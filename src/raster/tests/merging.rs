@@ -7,7 +7,11 @@ fn fill(target: &mut Target, state: &RenderState, z: f32, color: [f32; 4]) -> St
     let vertices = everywhere(at(0.0, 0.0, z, 1.0));
     draw(
         target,
-        &call(state, Topology::TriangleList, &vertices),
+        &call(
+            state,
+            Topology::TriangleList,
+            &Vertices::from(&vertices[..]),
+        ),
         &paint(move |_, _| color),
     )
     .unwrap()
@@ -146,7 +150,11 @@ fn table_fog_by_hand() {
         let shader = paint(|_, _| [1.0, 1.0, 1.0, 0.5]);
         draw(
             &mut target,
-            &call(&state, Topology::TriangleList, &vertices),
+            &call(
+                &state,
+                Topology::TriangleList,
+                &Vertices::from(&vertices[..]),
+            ),
             &shader,
         )
         .unwrap();
@@ -204,7 +212,11 @@ fn vertex_fog_goes_to_the_fog_colour() {
         let shader = paint(|_, _| [1.0, 0.0, 0.0, 0.0]);
         draw(
             &mut target,
-            &call(&state, Topology::TriangleList, &vertices),
+            &call(
+                &state,
+                Topology::TriangleList,
+                &Vertices::from(&vertices[..]),
+            ),
             &shader,
         )
         .unwrap();
@@ -244,7 +256,8 @@ impl PixelShader for Half {
 fn killed_pixels_leave_nothing_and_a_shader_may_set_the_depth() {
     let state = depth_on();
     let vertices = everywhere(on(0.0, 0.0));
-    let call = call(&state, Topology::TriangleList, &vertices);
+    let shaded = Vertices::from(&vertices[..]);
+    let call = call(&state, Topology::TriangleList, &shaded);
     let result = |shader: Half| {
         let mut target = target();
         let written = draw(&mut target, &call, &shader).unwrap().written;

@@ -90,7 +90,7 @@ pub(super) fn tally() -> impl PixelShader {
 pub(super) fn call<'a>(
     state: &'a RenderState,
     topology: Topology,
-    vertices: &'a [Vertex],
+    vertices: &'a Vertices,
 ) -> DrawCall<'a> {
     DrawCall {
         viewport: Viewport::full(16, 16),
@@ -112,7 +112,8 @@ pub(super) fn hits(
     state: &RenderState,
 ) -> Vec<(u32, u32)> {
     let mut target = target();
-    draw(&mut target, &call(state, topology, vertices), &tally()).unwrap();
+    let shaded = Vertices::from(vertices);
+    draw(&mut target, &call(state, topology, &shaded), &tally()).unwrap();
     let mut hits = Vec::new();
     for y in 0..16 {
         for x in 0..16 {

@@ -54,7 +54,8 @@ fn merged(state: &RenderState, shader: &Shader) -> MergeRecord {
         ..at(0.0, 0.0, 0.25, 2.0)
     };
     let vertices = everywhere(like);
-    let call = call(state, Topology::TriangleList, &vertices);
+    let shaded = Vertices::from(&vertices[..]);
+    let call = call(state, Topology::TriangleList, &shaded);
     let fragment = cover(&call, (16, 16), (3, 2)).unwrap().next().unwrap();
     let mut target = LoneTarget::new((3, 2), ColorFormat::A8R8G8B8, HOLDS).unwrap();
     let record = target.draw(state, &fragment, shader);
@@ -405,7 +406,8 @@ fn the_mask_and_the_format_say_which_channels_are_written() {
     // What has no alpha channel holds 255 there.
     let vertices = everywhere(on(0.0, 0.0));
     let state = open();
-    let call = call(&state, Topology::TriangleList, &vertices);
+    let shaded = Vertices::from(&vertices[..]);
+    let call = call(&state, Topology::TriangleList, &shaded);
     let fragment = cover(&call, (16, 16), (3, 2)).unwrap().next().unwrap();
     let mut target = LoneTarget::new((3, 2), ColorFormat::X8R8G8B8, HOLDS).unwrap();
     let record = target.draw(&state, &fragment, &shader([0.0; 4]));
@@ -558,13 +560,15 @@ proptest! {
         frame.clear(Some(holds.color), Some(holds.depth), Some(holds.stencil));
         let mut written = 0;
         for (state, vertices, shader) in &draws {
-            let call = call(state, Topology::TriangleList, vertices);
+            let shaded = Vertices::from(&vertices[..]);
+            let call = call(state, Topology::TriangleList, &shaded);
             written += draw(&mut frame, &call, shader).unwrap().written;
         }
         for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
             let mut lone = LoneTarget::new((x, y), format, holds).unwrap();
             for (state, vertices, shader) in &draws {
-                let call = call(state, Topology::TriangleList, vertices);
+                let shaded = Vertices::from(&vertices[..]);
+                let call = call(state, Topology::TriangleList, &shaded);
                 for fragment in cover(&call, (16, 16), (x, y)).unwrap() {
                     let before = lone.holds();
                     let record = lone.draw(state, &fragment, shader);

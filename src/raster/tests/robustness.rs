@@ -122,9 +122,10 @@ proptest! {
         let mut state = state;
         state.clip_planes[0] = plane.map(Vec4::from);
         let mut target = Target::new(size.0, size.1, ColorFormat::A8R8G8B8).unwrap();
+        let shaded = Vertices::from(&vertices[..]);
         let call = DrawCall {
             viewport: Viewport { x: viewport.0, y: viewport.1, width: viewport.2, height: viewport.3, ..Viewport::full(0, 0) },
-            ..call(&state, topology, &vertices)
+            ..call(&state, topology, &shaded)
         };
         // Positions, depths and w are numbers for helpers too.
         let shader = paint(|batch: &PixelBatch, lane| {
@@ -148,7 +149,7 @@ proptest! {
         let picture = |may_kill: bool| {
             let mut target = target();
             let shader = Paint { color: diffuse, may_kill };
-            draw(&mut target, &call(&state, Topology::TriangleList, &vertices), &shader).unwrap();
+            draw(&mut target, &call(&state, Topology::TriangleList, &Vertices::from(&vertices[..])), &shader).unwrap();
             contents(&target)
         };
         prop_assert!(picture(false) == picture(true));
@@ -168,10 +169,10 @@ proptest! {
         };
         let shader = Paint { color, may_kill };
         let mut together = target();
-        draw(&mut together, &call(&state, Topology::TriangleList, &vertices), &shader).unwrap();
+        draw(&mut together, &call(&state, Topology::TriangleList, &Vertices::from(&vertices[..])), &shader).unwrap();
         let mut apart = target();
         for triangle in vertices.chunks_exact(3) {
-            draw(&mut apart, &call(&state, Topology::TriangleList, triangle), &shader).unwrap();
+            draw(&mut apart, &call(&state, Topology::TriangleList, &Vertices::from(triangle)), &shader).unwrap();
         }
         prop_assert!(contents(&together) == contents(&apart));
     }
@@ -184,7 +185,8 @@ proptest! {
         pixel in (0..16_u32, 0..16_u32),
     ) {
         let state = open();
-        let call = call(&state, topology, &vertices);
+        let shaded = Vertices::from(&vertices[..]);
+        let call = call(&state, topology, &shaded);
         let mut drawn = target();
         let coordinate = |batch: &PixelBatch, lane: usize| batch.texcoords[5].map(|c| c[lane] / 10.0);
         draw(&mut drawn, &call, &paint(coordinate)).unwrap();
@@ -208,20 +210,22 @@ fn errors_are_told_and_draw_nothing() {
     let vertices = everywhere(on(0.0, 0.0));
     let mut target = target();
     let before = contents(&target);
+    let shaded = Vertices::from(&vertices[..]);
     let wrong = DrawCall {
         indices: Some(&[0, 1, 2, 0, 1, 7]),
-        ..call(&state, Topology::TriangleList, &vertices)
+        ..call(&state, Topology::TriangleList, &shaded)
     };
     assert_eq!(
         draw(&mut target, &wrong, &tally()).unwrap_err().to_string(),
         "index 7 at position 5 is outside the 3 vertices"
     );
+    let shaded = Vertices::from(&vertices[..]);
     let wrong = DrawCall {
         viewport: Viewport {
             min_z: f32::NAN,
             ..Viewport::full(16, 16)
         },
-        ..call(&state, Topology::TriangleList, &vertices)
+        ..call(&state, Topology::TriangleList, &shaded)
     };
     assert!(draw(&mut target, &wrong, &tally()).is_err());
     assert!(cover(&wrong, (16, 16), (0, 0)).is_err());
@@ -235,9 +239,10 @@ fn many_large_triangles_in_bounded_lists() {
     let one = everywhere(on(0.0, 0.0));
     let indices: Vec<u32> = (0..100_000_u32).flat_map(|_| [0, 1, 2]).collect();
     let mut target = Target::new(3, 2, ColorFormat::A8R8G8B8).unwrap();
+    let shaded = Vertices::from(&one[..]);
     let call = DrawCall {
         indices: Some(&indices),
-        ..call(&state, Topology::TriangleList, &one)
+        ..call(&state, Topology::TriangleList, &shaded)
     };
     let statistics = draw(&mut target, &call, &tally()).unwrap();
     assert_eq!(statistics.drawn, 100_000);
@@ -276,9 +281,10 @@ fn the_number_of_cores_changes_nothing() {
             .unwrap();
         pool.install(|| {
             let mut target = Target::new(150, 90, ColorFormat::A8R8G8B8).unwrap();
+            let shaded = Vertices::from(&vertices[..]);
             let call = DrawCall {
                 viewport: Viewport::full(150, 90),
-                ..call(&state, Topology::TriangleList, &vertices)
+                ..call(&state, Topology::TriangleList, &shaded)
             };
             let statistics = draw(&mut target, &call, &paint(diffuse)).unwrap();
             (contents(&target), statistics)

@@ -189,7 +189,7 @@ stages.0 = { texture = "board", filter = "linear", mip = "linear" }
         }
         machine.run(&draw.vertex.kernel, &draw.vertex_environment());
         let vertex = vertex_outputs(&draw.vertex.kernel, |slot| machine.lane(slot, 0));
-        assert_eq!(vertex, shaded.vertices()[index]);
+        assert_eq!(Some(vertex), shaded.vertices().get(index));
     }
     let program = shaded.program();
     let mut machine = Machine::<4>::new();
