@@ -18,6 +18,7 @@ use crate::simd::{Simd, Task};
 use reach::Reach;
 use rows::Rows;
 use samples::Samples;
+use step::Turn;
 
 /// The rows of `N` invocations.
 #[derive(Clone, Debug)]
@@ -124,7 +125,6 @@ impl<const N: usize> Batch<N> {
     ) {
         let first = steps.start;
         for (number, step) in (first..).zip(plan.steps.get(steps).unwrap_or_default()) {
-            let finite = self.within && self.reach.is_finite(number);
             step::take(
                 &mut self.rows,
                 &mut self.killed,
@@ -132,8 +132,12 @@ impl<const N: usize> Batch<N> {
                 step,
                 environment,
                 &mut self.samples,
-                (number, lanes, simd),
-                finite,
+                Turn {
+                    number,
+                    lanes,
+                    finite: self.within && self.reach.is_finite(number),
+                    simd,
+                },
             );
             if let RowOp::Sample(_) = step.op {
                 let results = plan.items(step).flat_map(|(results, _)| results);

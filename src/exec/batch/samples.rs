@@ -1,8 +1,8 @@
 //! The samples of a batch: those at the same coordinates find their texels once.
 
+use super::step::Turn;
 use crate::exec::environment::{Environment, STAGES, Stage};
 use crate::kernel::{Plan, RowOp};
-use crate::simd::Simd;
 use crate::texture::{Places, Sample, sample_quads, share_places};
 
 /// Where the samples of a plan are read, as far as they share it.
@@ -63,15 +63,13 @@ impl<const N: usize> Samples<N> {
         }
     }
 
-    /// Takes the sample of a step: the channels that are wanted, of the first lanes.
+    /// Takes the sample of a step: the channels that are wanted.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
-        simd: Simd,
-        step: usize,
+        turn: Turn,
         stage: &Stage<'_>,
         coords: [&[f32; N]; 3],
-        lanes: usize,
         channels: [bool; 4],
     ) -> [[f32; N]; 4] {
         let mut out = [[0.0; N]; 4];
@@ -79,7 +77,7 @@ impl<const N: usize> Samples<N> {
             out[3] = [1.0; N];
             return out;
         };
-        if N <= 4 || N % 4 != 0 {
+        if N <= 4 || !N.is_multiple_of(4) {
             sample_quads(
                 Some(texture),
                 &stage.sampler,
@@ -88,13 +86,13 @@ impl<const N: usize> Samples<N> {
             );
             return out;
         }
-        let sharing = self.steps.get(step).copied().unwrap_or_default();
+        let sharing = self.steps.get(turn.number).copied().unwrap_or_default();
         if let Some(places) = self.places.get_mut(sharing.places) {
-            simd.run(Sample {
+            turn.simd.run(Sample {
                 texture,
                 sampler: &stage.sampler,
                 coords,
-                lanes,
+                lanes: turn.lanes,
                 places,
                 found: sharing.found,
                 channels,

@@ -9,7 +9,20 @@ use crate::policy::{Model, ZeroProduct};
 use crate::semantics::{self, Finish, Ieee, OfFinite, Products, ZeroWins};
 use crate::simd::Simd;
 
-/// Takes a step. The lanes from `lanes` on may hold anything afterwards. `finite`: all that it reads is.
+/// How a step is taken.
+#[derive(Clone, Copy)]
+pub(super) struct Turn {
+    /// The number of the step in its plan.
+    pub(super) number: usize,
+    /// The lanes from here on may hold anything afterwards.
+    pub(super) lanes: usize,
+    /// Whether all that it reads is finite.
+    pub(super) finite: bool,
+    /// What samples are compiled for.
+    pub(super) simd: Simd,
+}
+
+/// Takes a step.
 #[inline(always)]
 pub(super) fn take<const N: usize>(
     rows: &mut Rows<N>,
@@ -18,11 +31,10 @@ pub(super) fn take<const N: usize>(
     step: &RowStep,
     environment: &Environment<'_>,
     samples: &mut Samples<N>,
-    (sample, lanes, simd): (usize, usize, Simd),
-    finite: bool,
+    turn: Turn,
 ) {
     let ieee = plan.policies.zero_product == ZeroProduct::Ieee;
-    let factors = match (ieee, finite) {
+    let factors = match (ieee, turn.finite) {
         (true, _) => Factors::Ieee,
         (false, true) => Factors::Finite,
         (false, false) => Factors::Any,
@@ -108,7 +120,7 @@ pub(super) fn take<const N: usize>(
         RowOp::Sample(stage) => {
             let stage = &environment.stages[usize::from(stage) % STAGES];
             on.several_of(|wanted, [u, v, w]: [&[f32; N]; 3]| {
-                samples.take(simd, sample, stage, [u, v, w], lanes, wanted)
+                samples.take(turn, stage, [u, v, w], wanted)
             });
         }
         RowOp::Kill => {

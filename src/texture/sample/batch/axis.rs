@@ -42,7 +42,7 @@ impl<const N: usize> Axis<N> {
             axis.far[l] = i + 1.0;
             axis.f[l] = if half[l] > 0.0 { x - i } else { 0.0 };
             // Also where it is not a number.
-            odd[l] |= u32::from(!(x.abs() < FAR));
+            odd[l] |= u32::from(x.abs() < FAR) ^ 1;
             outside |= u32::from(i < 0.0) | u32::from(i + 1.0 >= n[l]);
         }
         if coarse {
@@ -91,9 +91,9 @@ impl<const N: usize> Axis<N> {
 
     #[inline(always)]
     fn each(&mut self, n: &[f32; N], texel: impl Fn(f32, f32) -> f32) {
-        for l in 0..N {
-            self.near[l] = texel(self.near[l], n[l]);
-            self.far[l] = texel(self.far[l], n[l]);
+        for (l, n) in n.iter().enumerate() {
+            self.near[l] = texel(self.near[l], *n);
+            self.far[l] = texel(self.far[l], *n);
         }
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn met<const N: usize>(
         met.v[l] = (tc / largest + 1.0) / 2.0;
         // NaN and infinity too, wherever they are.
         let sum = x + y + z;
-        odd[l] |= u32::from(!(sum < f32::INFINITY)) | u32::from(largest == 0.0);
+        odd[l] |= (u32::from(sum < f32::INFINITY) ^ 1) | u32::from(largest == 0.0);
     }
     if derivatives {
         let quads = met.face.as_chunks::<4>().0.iter();
