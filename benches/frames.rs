@@ -9,14 +9,14 @@
     reason = "a benchmark that cannot go on has failed, and criterion's macro makes a function"
 )]
 
+mod shared;
+
 use std::hint::black_box;
-use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use texcrd::diagnostic::SourceMap;
 use texcrd::exec::{Batch, Environment, bind_constants};
 use texcrd::kernel::{Kernel, Options, Plan, lower};
-use texcrd::scene::{DirectoryResolver, LoadOptions, Scene};
 use texcrd::simd::Simd;
 use texcrd::syntax;
 
@@ -76,14 +76,6 @@ fn batches(c: &mut Criterion) {
     group.finish();
 }
 
-fn scene(path: &str) -> Scene {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let path = folder.join(path);
-    let bytes = std::fs::read(&path).expect("the scene is there");
-    let resolver = DirectoryResolver::new(path.parent().unwrap_or(folder));
-    Scene::load("scene", &bytes, &resolver, &LoadOptions::default()).expect("the scene is sound")
-}
-
 fn frames(c: &mut Criterion) {
     let mut group = c.benchmark_group("frame");
     group.sample_size(10);
@@ -91,7 +83,7 @@ fn frames(c: &mut Criterion) {
         ("stained glass", "asm/stained_glass/scene.toml"),
         ("arithmetic", "benches/scenes/arithmetic.toml"),
     ] {
-        let scene = scene(path);
+        let scene = shared::scene(path);
         for side in [256_u32, 1024] {
             let mut frame = scene.prepare_frame([side; 2]).expect("it can be drawn");
             group.throughput(Throughput::Elements(u64::from(side) * u64::from(side)));
@@ -100,7 +92,7 @@ fn frames(c: &mut Criterion) {
             });
         }
     }
-    let triangles = scene("benches/scenes/triangles.toml");
+    let triangles = shared::scene("benches/scenes/triangles.toml");
     let mut frame = (triangles.prepare_frame(triangles.size())).expect("it can be drawn");
     group.throughput(Throughput::Elements(100_000));
     group.bench_function("triangles/100000", |b| {
