@@ -150,7 +150,7 @@ fn pane<T>(
         kept: Mutex::default(),
     };
     let [width, height] = rendering.size();
-    let mut target = Target::new(width, height, ColorFormat::X8R8G8B8).expect("it is not large");
+    let mut target = Target::new(width, height, ColorFormat::A8R8G8B8).expect("it is not large");
     let state = &shaded.draw().state;
     let call = shaded.call(state, rendering.size());
     draw(&mut target, &call, &keep).expect("it can be drawn");
