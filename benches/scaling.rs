@@ -25,8 +25,8 @@ use std::time::{Duration, Instant};
 use texcrd::scene::{LoadOptions, PreparedFrame, Scene};
 use texcrd::simd::Simd;
 
-/// How long the sides of a comparison draw together, unless three frames of each take longer.
-const TIME: Duration = Duration::from_millis(1500);
+/// How long the sides of a comparison draw together, and how long if they have not drawn three frames each by then.
+const TIME: [Duration; 2] = [Duration::from_millis(1500), Duration::from_secs(6)];
 /// The sides of the squares, as powers of two.
 const SIDES: std::ops::RangeInclusive<u32> = 8..=12;
 /// Columns and rows of a patch of quads: 1,000 triangles and then always ten times as many.
@@ -51,7 +51,7 @@ fn in_turns(count: usize, mut draw: impl FnMut(usize) -> Duration) -> Vec<f64> {
     }
     let mut times = vec![Vec::new(); count];
     let start = Instant::now();
-    while times[0].len() < 3 || start.elapsed() < TIME {
+    while times[0].is_empty() || start.elapsed() < TIME[usize::from(times[0].len() < 3)] {
         for (side, times) in times.iter_mut().enumerate() {
             times.push(draw(side));
         }
@@ -159,7 +159,7 @@ fn pixels(pools: &[ThreadPool]) -> Shown {
     }
     let across = Axis {
         name: "side of the square picture in pixels",
-        end: (SIDES.count() - 1) as f64,
+        end: SIDES.count() as f64 - 0.7,
         step: 1.0,
         label: |number| (1_u32 << (*SIDES.start() + number as u32)).to_string(),
     };
@@ -199,7 +199,7 @@ fn triangles(pools: &[ThreadPool]) -> Shown {
     }
     let across = Axis {
         name: "triangles",
-        end: (PATCHES.len() - 1) as f64,
+        end: PATCHES.len() as f64 - 0.7,
         step: 1.0,
         label: |number| 10_u32.pow(number as u32 + 3).to_string(),
     };
@@ -257,7 +257,7 @@ fn instructions() -> Shown {
     }
     let across = Axis {
         name: "set of instructions",
-        end: (sets.len() - 1).max(1) as f64,
+        end: sets.len().max(2) as f64 - 0.7,
         step: 1.0,
         label: |number| {
             Simd::ALL
@@ -286,12 +286,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
     let pools = [pool(1)?, pool(2)?];
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for shown in [
-        pixels(&pools[1..]),
-        triangles(&pools),
-        threads(&pools),
-        instructions(),
-    ] {
+    let parts: [fn(&[ThreadPool]) -> Shown; 4] = [
+        |pools| pixels(&pools[1..]),
+        triangles,
+        threads,
+        |_| instructions(),
+    ];
+    for part in parts {
+        let shown = part(&pools);
         println!("{}", shown.table);
         if asked("--write") {
             let begin = format!(
