@@ -33,27 +33,41 @@ impl Simd {
     pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
 
     /// Whether this processor has them.
+    #[inline]
     pub fn is_available(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        return match self {
-            Self::Baseline => true,
-            Self::Avx2 => {
-                is_x86_feature_detected!("avx2")
-                    && is_x86_feature_detected!("bmi1")
-                    && is_x86_feature_detected!("bmi2")
-                    && is_x86_feature_detected!("lzcnt")
-                    && is_x86_feature_detected!("popcnt")
-            }
-            Self::Avx512 => {
-                Self::Avx2.is_available()
-                    && is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512bw")
-                    && is_x86_feature_detected!("avx512dq")
-                    && is_x86_feature_detected!("avx512vl")
-            }
-        };
-        #[cfg(not(target_arch = "x86_64"))]
-        return self == Self::Baseline;
+        // Asked for every batch: one load.
+        static LARGEST: AtomicU8 = AtomicU8::new(u8::MAX);
+        let mut largest = LARGEST.load(Relaxed);
+        if largest == u8::MAX {
+            largest = Self::largest() as u8;
+            LARGEST.store(largest, Relaxed);
+        }
+        self as u8 <= largest
+    }
+
+    /// The largest set that this processor has.
+    #[cfg(target_arch = "x86_64")]
+    fn largest() -> Self {
+        let avx2 = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt");
+        let avx512 = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl");
+        match (avx2, avx512) {
+            (true, true) => Self::Avx512,
+            (true, false) => Self::Avx2,
+            (false, _) => Self::Baseline,
+        }
+    }
+
+    /// The largest set that there is for this processor.
+    #[cfg(not(target_arch = "x86_64"))]
+    fn largest() -> Self {
+        Self::Baseline
     }
 
     /// The largest set that the processor has, within what [`Self::limit`] allows.

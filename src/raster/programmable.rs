@@ -45,6 +45,7 @@ pub fn shade_vertices(
         }
         ROWS.with_borrow_mut(|rows| {
             simd.run(ShadeVertices {
+                simd,
                 batch: rows.of(shader, plan, environment),
                 kernel,
                 plan,
@@ -72,6 +73,7 @@ pub fn shade_vertices(
 
 /// A batch of vertices, as something that is compiled for each set of instructions.
 struct ShadeVertices<'a, 'e> {
+    simd: Simd,
     batch: &'a mut Batch<LANES>,
     kernel: &'a Kernel,
     plan: &'a Plan,
@@ -95,7 +97,7 @@ impl Task for ShadeVertices<'_, '_> {
         batch.input(plan, |slot, component| {
             self.fetched.get(slot.input_index()?)?.get(component)
         });
-        batch.run_here(plan, self.environment, vertices.len());
+        batch.run_here(self.simd, plan, self.environment, vertices.len());
         for (slot, component) in [
             (Slot::FOG, kernel.fog_component),
             (Slot::POINT_SIZE, kernel.point_size_component),
@@ -336,6 +338,7 @@ impl PixelShader for BatchProgram<'_> {
         let (plan, environment) = (self.plan, self.program.environment);
         ROWS.with_borrow_mut(|rows| {
             self.simd.run(ShadePixels {
+                simd: self.simd,
                 batch: rows.of(self.number, plan, environment),
                 plan,
                 environment,
@@ -356,6 +359,7 @@ impl PixelShader for BatchProgram<'_> {
 
 /// A batch of pixels, as something that is compiled for each set of instructions.
 struct ShadePixels<'a, 'e> {
+    simd: Simd,
     batch: &'a mut Batch<LANES>,
     plan: &'a Plan,
     environment: &'a Environment<'e>,
@@ -384,7 +388,7 @@ impl Task for ShadePixels<'_, '_> {
             };
             attribute.get(component)
         });
-        batch.run_here(plan, self.environment, 4 * pixels.quads);
+        batch.run_here(self.simd, plan, self.environment, 4 * pixels.quads);
         for (channel, row) in out.color.iter_mut().zip(batch.output(plan, Slot::R0)) {
             *channel = row.copied().unwrap_or([0.0; LANES]);
         }

@@ -72,7 +72,7 @@ pub const CUBE_FACES: [FaceAxes; 6] = [
 impl SignedAxis {
     /// The component of `vector` along this direction.
     #[inline(always)]
-    fn of<T: Copy + std::ops::Neg<Output = T>>(self, vector: [T; 3]) -> T {
+    pub(super) fn of<T: Copy + std::ops::Neg<Output = T>>(self, vector: [T; 3]) -> T {
         let value = vector[self.axis];
         if self.negative { -value } else { value }
     }

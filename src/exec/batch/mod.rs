@@ -5,6 +5,7 @@
 //! the kernel, whatever the number of lanes.
 
 mod rows;
+mod samples;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -13,11 +14,13 @@ use super::environment::Environment;
 use crate::kernel::{Plan, Slot, UniformValue};
 use crate::simd::{Simd, Task};
 use rows::Rows;
+use samples::Samples;
 
 /// The rows of `N` invocations.
 #[derive(Clone, Debug)]
 pub struct Batch<const N: usize> {
     rows: Rows<N>,
+    samples: Samples<N>,
     killed: [bool; N],
 }
 
@@ -25,6 +28,7 @@ impl<const N: usize> Default for Batch<N> {
     fn default() -> Self {
         Self {
             rows: Rows::default(),
+            samples: Samples::default(),
             killed: [false; N],
         }
     }
@@ -45,8 +49,9 @@ impl<const N: usize> Batch<N> {
             };
             self.rows.fill(uniform.row, value);
         }
+        self.samples.load(plan, environment);
         // Once a draw: not worth a copy of its own for each set of instructions.
-        self.steps(plan, environment, 0..plan.once, N);
+        self.steps(Simd::Baseline, plan, environment, 0..plan.once, N);
     }
 
     /// Loads an input: `component(slot, c)` is a component of a register in all lanes. It is asked only for what the shader
@@ -68,35 +73,45 @@ impl<const N: usize> Batch<N> {
     pub fn run(&mut self, simd: Simd, plan: &Plan, environment: &Environment<'_>, lanes: usize) {
         simd.run(Run {
             batch: self,
+            simd,
             plan,
             environment,
             lanes,
         });
     }
 
-    /// As [`Self::run`], within a task.
+    /// As [`Self::run`], within a task for these instructions.
     #[inline(always)]
-    pub(crate) fn run_here(&mut self, plan: &Plan, environment: &Environment<'_>, lanes: usize) {
+    pub(crate) fn run_here(
+        &mut self,
+        simd: Simd,
+        plan: &Plan,
+        environment: &Environment<'_>,
+        lanes: usize,
+    ) {
         self.killed = [false; N];
-        self.steps(plan, environment, plan.once..plan.steps.len(), lanes);
+        self.steps(simd, plan, environment, plan.once..plan.steps.len(), lanes);
     }
 
     #[inline(always)]
     fn steps(
         &mut self,
+        simd: Simd,
         plan: &Plan,
         environment: &Environment<'_>,
         steps: std::ops::Range<usize>,
         lanes: usize,
     ) {
-        for step in plan.steps.get(steps).unwrap_or_default() {
+        let first = steps.start;
+        for (number, step) in (first..).zip(plan.steps.get(steps).unwrap_or_default()) {
             step::take(
                 &mut self.rows,
                 &mut self.killed,
                 plan,
                 step,
                 environment,
-                lanes,
+                &mut self.samples,
+                (number, lanes, simd),
             );
         }
     }
@@ -116,6 +131,7 @@ impl<const N: usize> Batch<N> {
 /// A run as something that is compiled for each set of instructions.
 struct Run<'a, 'e, const N: usize> {
     batch: &'a mut Batch<N>,
+    simd: Simd,
     plan: &'a Plan,
     environment: &'a Environment<'e>,
     lanes: usize,
@@ -126,6 +142,6 @@ impl<const N: usize> Task for Run<'_, '_, N> {
 
     #[inline(always)]
     fn run(self) {
-        (self.batch).run_here(self.plan, self.environment, self.lanes);
+        (self.batch).run_here(self.simd, self.plan, self.environment, self.lanes);
     }
 }

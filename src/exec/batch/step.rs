@@ -1,12 +1,13 @@
 //! One step of a plan.
 
 use super::rows::Rows;
+use super::samples::Samples;
 use crate::exec::environment::{Environment, STAGES};
 use crate::isa::{ResultModifier, SourceModifier};
-use crate::kernel::{Plan, RowFinish, RowOp, RowStep};
+use crate::kernel::{NO_ROW, Plan, RowFinish, RowOp, RowStep};
 use crate::policy::{Model, ZeroProduct};
 use crate::semantics::{self, Finish};
-use crate::texture::sample_quads;
+use crate::simd::Simd;
 
 /// Takes a step. The lanes from `lanes` on may hold anything afterwards.
 #[inline(always)]
@@ -16,7 +17,8 @@ pub(super) fn take<const N: usize>(
     plan: &Plan,
     step: &RowStep,
     environment: &Environment<'_>,
-    lanes: usize,
+    samples: &mut Samples<N>,
+    (sample, lanes, simd): (usize, usize, Simd),
 ) {
     let ieee = plan.policies.zero_product == ZeroProduct::Ieee;
     let of_zero = plan.policies.of_zero;
@@ -83,25 +85,8 @@ pub(super) fn take<const N: usize>(
         RowOp::Reflect => on.reflect(),
         RowOp::Sample(stage) => {
             let stage = &environment.stages[usize::from(stage) % STAGES];
-            on.several(|[x, y, z]: [&[f32; N]; 3]| {
-                let mut texels = [[0.0; N]; 4];
-                if lanes == N {
-                    let coordinates = [*x, *y, *z];
-                    sample_quads(stage.texture, &stage.sampler, &coordinates, &mut texels);
-                    return texels;
-                }
-                // Sampling is worth leaving out what nobody sees.
-                for first in (0..lanes.min(N)).step_by(4) {
-                    let coordinates = [x, y, z].map(|row| quad(row, first));
-                    let mut of_quad = [[0.0; 4]; 4];
-                    sample_quads(stage.texture, &stage.sampler, &coordinates, &mut of_quad);
-                    for (texels, of_quad) in texels.iter_mut().zip(of_quad) {
-                        for (texel, value) in texels.iter_mut().skip(first).zip(of_quad) {
-                            *texel = value;
-                        }
-                    }
-                }
-                texels
+            on.several_of(|wanted, [u, v, w]: [&[f32; N]; 3]| {
+                samples.take(simd, sample, stage, [u, v, w], lanes, wanted)
             });
         }
         RowOp::Kill => {
@@ -177,12 +162,25 @@ impl<const N: usize> On<'_, N> {
         &mut self,
         f: impl Fn([&[f32; N]; S]) -> [[f32; N]; R],
     ) {
+        self.several_of(|_, sources| f(sources));
+    }
+
+    /// The same, told which of the results are wanted.
+    #[inline(always)]
+    fn several_of<const S: usize, const R: usize>(
+        &mut self,
+        mut f: impl FnMut([bool; R], [&[f32; N]; S]) -> [[f32; N]; R],
+    ) {
         let none = [0.0; N];
         for (results, sources) in self.plan.items(self.step) {
-            let values = f(std::array::from_fn(|i| {
-                let row = sources.get(i).and_then(|row| self.rows.get(*row));
-                row.unwrap_or(&none)
-            }));
+            let wanted = std::array::from_fn(|i| results.get(i).is_some_and(|row| *row != NO_ROW));
+            let values = f(
+                wanted,
+                std::array::from_fn(|i| {
+                    let row = sources.get(i).and_then(|row| self.rows.get(*row));
+                    row.unwrap_or(&none)
+                }),
+            );
             match self.step.finish {
                 RowFinish::Keep | RowFinish::Flush => {
                     self.rows.store(results, &values, semantics::flush);
@@ -232,10 +230,4 @@ fn each_lane<const N: usize, const S: usize>(
     for (lane, to) in to.iter_mut().enumerate() {
         *to = f(from.map(|row| row[lane]));
     }
-}
-
-/// Four lanes of a row.
-#[inline(always)]
-fn quad<const N: usize>(row: &[f32; N], first: usize) -> [f32; 4] {
-    std::array::from_fn(|i| row.get(first + i).copied().unwrap_or_default())
 }

@@ -91,6 +91,8 @@ pub(crate) struct RowStep {
     pub(crate) operands: Range<usize>,
     /// The instruction that it came from.
     pub(crate) origin: usize,
+    /// Of a sample: a number that all samples at the same coordinates have.
+    pub(crate) place: usize,
 }
 
 /// What becomes of a result before it is written: shift, saturation, denormal numbers to zero.

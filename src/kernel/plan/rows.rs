@@ -4,6 +4,7 @@
 use super::graph::{Graph, Node, Value};
 use super::{Input, NO_ROW, Plan, Row, RowOp, RowStep, Uniform, UniformValue};
 use crate::kernel::Kernel;
+use std::collections::HashMap;
 
 /// Turns a graph into a plan.
 pub(super) fn place(kernel: &Kernel, graph: &Graph) -> Plan {
@@ -53,12 +54,23 @@ pub(super) fn place(kernel: &Kernel, graph: &Graph) -> Plan {
     }
     plan.inputs
         .sort_by_key(|input| (input.slot, input.component, input.flushed));
+    let mut coordinates: HashMap<&[Value], usize> = HashMap::new();
     for (time, members) in steps.iter().enumerate() {
         let Some(Node::Computed {
-            op, finish, writes, ..
+            op,
+            finish,
+            writes,
+            sources: first_sources,
         }) = members.first().map(|node| &graph.nodes[*node])
         else {
             continue;
+        };
+        let place = match op {
+            RowOp::Sample(_) => {
+                let next = coordinates.len();
+                *coordinates.entry(first_sources).or_insert(next)
+            }
+            _ => 0,
         };
         let first = plan.operands.len();
         for &node in members {
@@ -84,6 +96,7 @@ pub(super) fn place(kernel: &Kernel, graph: &Graph) -> Plan {
             writes: *writes,
             operands: first..plan.operands.len(),
             origin: graph.origins[members[0]],
+            place,
         });
     }
     plan.outputs = (graph.outputs.iter())
@@ -136,14 +149,17 @@ fn grouped(graph: &Graph, order: &[usize]) -> Vec<Vec<usize>> {
         else {
             continue;
         };
-        let joins = steps.last().is_some_and(|members| {
-            let alike = members.first().is_some_and(|first| {
+        // A sample stands for itself: what it shares with others is not the operation.
+        let sample = matches!(op, RowOp::Sample(_));
+        let joins = !sample
+            && steps.last().is_some_and(|members| {
+                let alike = members.first().is_some_and(|first| {
                 matches!(&graph.nodes[*first], Node::Computed { op: o, finish: f, writes: w, .. }
                     if (o, f, w) == (op, finish, writes))
                     && graph.is_uniform(*first) == graph.is_uniform(node)
             });
-            alike && !(sources(graph, node).iter()).any(|source| members.contains(&source.node))
-        });
+                alike && !(sources(graph, node).iter()).any(|source| members.contains(&source.node))
+            });
         match steps.last_mut() {
             Some(members) if joins => members.push(node),
             _ => steps.push(vec![node]),

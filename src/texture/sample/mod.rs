@@ -9,7 +9,11 @@
 //! A sample goes through four steps, each used by every way to sample: [`Detail`] (λ and probes from the derivatives),
 //! [`Choice`] (filter and levels from λ), [`Position`] (face and coordinate from the vector), [`Texel taps`](Taps) (which
 //! texels of a level, how much of each).
+//!
+//! [`batch`] takes the same steps for many lanes at a time. What it does not know (probes, volumes, borders, coordinates
+//! that are not numbers, quads across the edges of a cube) it leaves to the code in this file, quad by quad.
 
+mod batch;
 mod detail;
 mod footprint;
 #[cfg(test)]
@@ -19,6 +23,8 @@ use super::cube::{AcrossEdge, across_edge, direction_to_face, face_to_direction}
 use super::storage::{FloatStore, Level, PackedStore, Store, Texels};
 use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind, Weights};
 
+pub use batch::sample_quads;
+pub(crate) use batch::{Places, Sample, share_places};
 pub(crate) use detail::RATIO_SLACK;
 pub use detail::{Detail, details};
 pub use footprint::{Footprint, Tap, footprint};
@@ -504,42 +510,13 @@ impl<'a, S: Store, const COARSE: bool> Reader<'a, S, COARSE> {
         self.sample(self.texture.kind, coord, detail)
     }
 
-    fn sample_lanes<const N: usize>(&self, coords: &[[f32; N]; 3], out: &mut [[f32; N]; 4]) {
-        // Each kind is compiled by itself, so that the lanes need not ask for it.
-        match self.texture.kind {
-            TextureKind::Texture2D => self.lanes_of(TextureKind::Texture2D, coords, out),
-            TextureKind::Cube => self.lanes_of(TextureKind::Cube, coords, out),
-            TextureKind::Volume => self.lanes_of(TextureKind::Volume, coords, out),
-        }
-    }
-
-    #[inline(always)]
-    fn lanes_of<const N: usize>(
-        &self,
-        kind: TextureKind,
-        coords: &[[f32; N]; 3],
-        out: &mut [[f32; N]; 4],
-    ) {
-        let Self {
-            texture, sampler, ..
-        } = *self;
-        let at = |lane: usize| [coords[0][lane], coords[1][lane], coords[2][lane]];
-        let fixed = Choice::is_fixed(texture, sampler);
-        for first in (0..N).step_by(4) {
-            let end = N.min(first + 4);
-            let found = if fixed || end - first < 4 {
-                [Detail::NONE; 4]
-            } else {
-                let quad = std::array::from_fn(|lane| at(first + lane));
-                details(texture, sampler, &quad)
-            };
-            for (lane, detail) in (first..end).zip(&found) {
-                let value = self.sample(kind, at(lane), detail);
-                for (channel, value) in out.iter_mut().zip(value) {
-                    channel[lane] = value;
-                }
-            }
-        }
+    /// The four pixels of a quad.
+    fn quad(&self, coords: &[[f32; 3]; 4]) -> [[f32; 4]; 4] {
+        let found = match Choice::is_fixed(self.texture, self.sampler) {
+            true => [Detail::NONE; 4],
+            false => details(self.texture, self.sampler, coords),
+        };
+        std::array::from_fn(|lane| self.sample_at(coords[lane], &found[lane]))
     }
 }
 
@@ -563,25 +540,10 @@ macro_rules! read {
     };
 }
 
-/// Samples a texture for N lanes at once.
-///
-/// `coords` are u, v, w (2D ignores w; a cube takes a direction of any length); `out` receives r, g, b, a.
-/// Each four lanes from 4q on are the pixels (x, y), (x+1, y), (x, y+1), (x+1, y+1) of a quad, from which
-/// their detail follows ([`details`]). Lanes that do not fill a quad (N = 1) have no derivatives: they are magnified and read
-/// the largest level that the sampler allows.
-/// Without a texture every lane reads (0, 0, 0, 1), as Direct3D 8 does for an empty stage.
-/// Any coordinate is allowed: NaN counts as 0, infinities as the largest finite number.
-pub fn sample_quads<const N: usize>(
-    texture: Option<&Texture>,
-    sampler: &Sampler,
-    coords: &[[f32; N]; 3],
-    out: &mut [[f32; N]; 4],
-) {
-    let Some(texture) = texture else {
-        *out = UNBOUND.map(|value| [value; N]);
-        return;
-    };
-    read!(texture, sampler, sample_lanes(coords, out))
+/// Samples a texture for the pixels of one quad.
+#[inline(never)]
+fn sample_quad(texture: &Texture, sampler: &Sampler, coords: &[[f32; 3]; 4]) -> [[f32; 4]; 4] {
+    read!(texture, sampler, quad(coords))
 }
 
 /// Samples a texture at one coordinate with a given detail, or a given λ (no bias is added to it).

@@ -1,0 +1,185 @@
+//! Which mip levels the lanes read, and by which filter.
+
+use super::{floor, int};
+use crate::texture::sample::detail::lambda;
+use crate::texture::sample::share;
+use crate::texture::storage::Level;
+use crate::texture::{Filter, MipFilter, Sampler, Texture, Weights};
+use glam::{Vec4, Vec4Swizzles};
+
+/// What [`Choice`](crate::texture::sample::Choice) says of one lane, of all.
+pub(super) struct Detailed<const N: usize> {
+    /// 0.5 where the filter is linear, else 0.
+    pub(super) half: [f32; N],
+    /// The numbers of the levels.
+    pub(super) first: [f32; N],
+    pub(super) second: [f32; N],
+    /// The share of the second level.
+    pub(super) blend: [f32; N],
+}
+
+/// How far before a coordinate the middle of the first texel may lie.
+fn half(filter: Filter) -> f32 {
+    if filter.is_linear() { 0.5 } else { 0.0 }
+}
+
+impl<const N: usize> Detailed<N> {
+    /// Where λ makes no difference.
+    #[inline(always)]
+    pub(super) fn fixed(sampler: &Sampler) -> Self {
+        Self {
+            half: [half(sampler.mag); N],
+            first: [0.0; N],
+            second: [0.0; N],
+            blend: [0.0; N],
+        }
+    }
+
+    /// From the coordinates of quads on one plane each. Lanes with several probes are marked as odd.
+    #[inline(always)]
+    pub(super) fn find(
+        texture: &Texture,
+        sampler: &Sampler,
+        u: &[f32; N],
+        v: &[f32; N],
+        odd: &mut [u32; N],
+    ) -> Self {
+        let size = texture.levels.first().map_or([1; 3], |level| level.size);
+        let mut detailed = Self::fixed(sampler);
+        let mut lambdas = squared_lengths(u, v, size.map(|edge| edge as f32));
+        for l in &mut lambdas {
+            *l = lambda(*l, sampler.lod_bias);
+        }
+        if sampler.most_probes() > 1 {
+            for (odd, lambda) in odd.iter_mut().zip(&lambdas) {
+                *odd |= u32::from(*lambda > 0.0);
+            }
+        }
+        let (minified, magnified) = (half(sampler.min), half(sampler.mag));
+        for (half, lambda) in detailed.half.iter_mut().zip(&lambdas) {
+            *half = if *lambda > 0.0 { minified } else { magnified };
+        }
+        let last = texture.levels.len().saturating_sub(1);
+        let largest = last.min(sampler.max_mip_level as usize) as f32;
+        let last = last as f32;
+        // NaN, which only a bias brings about, is the largest level.
+        let level = lambdas.map(|level| {
+            let level = if level > largest { level } else { largest };
+            if level > last { last } else { level }
+        });
+        match sampler.mip {
+            MipFilter::None => {}
+            MipFilter::Point => {
+                detailed.first = level.map(|level| {
+                    let nearest = floor(level + 0.5);
+                    if nearest > last { last } else { nearest }
+                });
+            }
+            MipFilter::Linear => {
+                for (l, level) in level.iter().enumerate() {
+                    let first = floor(*level);
+                    detailed.first[l] = first;
+                    detailed.second[l] = if first + 1.0 > last {
+                        last
+                    } else {
+                        first + 1.0
+                    };
+                    detailed.blend[l] = level - first;
+                }
+                if sampler.weights == Weights::EightBits {
+                    detailed.blend = detailed.blend.map(share::<true>);
+                }
+            }
+        }
+        detailed
+    }
+
+    /// Whether no lane has a linear filter.
+    #[inline(always)]
+    pub(super) fn is_point(&self) -> bool {
+        self.half.iter().fold(0, |any, half| any | half.to_bits()) == 0
+    }
+
+    /// Whether any lane reads two levels.
+    #[inline(always)]
+    pub(super) fn is_blended(&self) -> bool {
+        self.blend
+            .iter()
+            .fold(0, |any, blend| any | blend.to_bits())
+            != 0
+    }
+}
+
+/// The square of the longer derivative of each lane, in texels of a level of a size.
+#[inline(always)]
+fn squared_lengths<const N: usize>(u: &[f32; N], v: &[f32; N], size: [f32; 3]) -> [f32; N] {
+    let mut squared = [0.0; N];
+    let quads = u.as_chunks::<4>().0.iter().zip(v.as_chunks::<4>().0);
+    for (squared, (u, v)) in squared.as_chunks_mut::<4>().0.iter_mut().zip(quads) {
+        let (u, v) = (Vec4::from(*u), Vec4::from(*v));
+        // To the other pixel of the row, and to the other one of the column.
+        let row = [u.yyww() - u.xxzz(), v.yyww() - v.xxzz()];
+        let column = [u.zwzw() - u.xyxy(), v.zwzw() - v.xyxy()];
+        let [row, column] = [row, column].map(|[u, v]| {
+            let (u, v) = (u * size[0], v * size[1]);
+            u * u + v * v
+        });
+        let (row, column) = (row.to_array(), column.to_array());
+        *squared = std::array::from_fn(|i| {
+            if row[i] >= column[i] {
+                row[i]
+            } else {
+                column[i]
+            }
+        });
+    }
+    squared
+}
+
+/// What is needed to know of the level of each lane.
+pub(super) struct LevelRows<const N: usize> {
+    pub(super) width: [f32; N],
+    pub(super) height: [f32; N],
+    /// Texels from one row to the next.
+    pub(super) stride: [u32; N],
+    /// Where the face of the lane begins.
+    pub(super) base: [u32; N],
+}
+
+impl<const N: usize> LevelRows<N> {
+    /// Of levels by their numbers.
+    #[inline(always)]
+    pub(super) fn new(levels: &[Level], number: &[f32; N], face: &[u32; N]) -> Self {
+        let mut rows = Self {
+            width: [0.0; N],
+            height: [0.0; N],
+            stride: [0; N],
+            base: [0; N],
+        };
+        let bits = number[0].to_bits();
+        let different = number.iter().fold(0, |any, n| any | (n.to_bits() ^ bits));
+        // A texture has fewer than 2³² texels.
+        if different == 0 {
+            if let Some(level) = levels.get(int(number[0]) as usize) {
+                let [width, height, _] = level.size;
+                rows.width = [width as f32; N];
+                rows.height = [height as f32; N];
+                rows.stride = [width; N];
+                let (offset, face_len) = (level.offset as u32, level.face_len as u32);
+                rows.base = face.map(|face| offset.wrapping_add(face.wrapping_mul(face_len)));
+            }
+            return rows;
+        }
+        for l in 0..N {
+            if let Some(level) = levels.get(int(number[l]) as usize) {
+                let [width, height, _] = level.size;
+                rows.width[l] = width as f32;
+                rows.height[l] = height as f32;
+                rows.stride[l] = width;
+                let start = face[l].wrapping_mul(level.face_len as u32);
+                rows.base[l] = (level.offset as u32).wrapping_add(start);
+            }
+        }
+        rows
+    }
+}
