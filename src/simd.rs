@@ -3,7 +3,7 @@
 //! This is the one corner of the crate with `unsafe`. What makes it sound is all here: a function that is compiled for a set
 //! of instructions is only called when [`Simd::is_available`] has said that the processor has them.
 //!
-//! The code itself is plain loops over arrays; a `Task` is compiled once for each set by being inlined into a function
+//! The code itself is plain loops over arrays; a [`Task`] is compiled once for each set by being inlined into a function
 //! with that set switched on. Rust never contracts `a * b + c` nor reorders sums, so the results are the same bits in every set.
 #![allow(
     unsafe_code,
@@ -95,7 +95,7 @@ impl Simd {
 
     /// Runs a task with these instructions, or with the baseline if the processor does not have them.
     #[inline]
-    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
+    pub fn run<T: Task>(self, task: T) -> T::Output {
         #[cfg(target_arch = "x86_64")]
         {
             if self == Self::Avx512 && self.is_available() {
@@ -111,12 +111,13 @@ impl Simd {
     }
 }
 
-/// What is compiled once for each set of instructions.
-pub(crate) trait Task {
+/// What is compiled once for each set of instructions: a piece of work with what it works on, for [`Simd::run`].
+pub trait Task {
     /// What comes of it.
     type Output;
 
-    /// Does it. Must be marked `#[inline(always)]`, like everything of weight that it calls.
+    /// Does it. To be marked `#[inline(always)]`, like everything of weight that it calls: what is not inlined is compiled for
+    /// the baseline.
     fn run(self) -> Self::Output;
 }
 

@@ -4,10 +4,11 @@
 //! `cargo run --release --example gallery` does all of it; with names of folders only these are done.
 //!
 //! Files: `exhibits` (what there is), `tree` and `world` (what rays meet), `optics` and `truth` (how they go on), `probe`
-//! (what a shader looks up), `measure` (both compared), `plot`, `pages` (tables, pictures), `tables` (textures that hold
-//! numbers).
+//! (what a shader looks up), `measure` (both compared), `plot`, `pages` (tables, pictures), `marks` (where in a page),
+//! `tables` (textures that hold numbers).
 
 mod exhibits;
+mod marks;
 mod measure;
 mod optics;
 mod pages;

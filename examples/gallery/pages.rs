@@ -2,7 +2,8 @@
 
 use crate::Done;
 use crate::exhibits::{CONTACT, PLOTTED, Piece, WITHOUT_SHEET};
-use crate::plot::{Axis, Line, means, plot};
+use crate::marks::put;
+use crate::plot::{Axis, Line, plot};
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::imageops::{self, resize};
@@ -18,7 +19,6 @@ use texcrd::sheet::{Dressing, Tile, compose};
 
 /// What stands between these lines in a page is written by the gallery.
 const BEGIN: &str = "<!-- measured: written by `cargo run --release --example gallery` -->";
-const END: &str = "<!-- end -->";
 
 /// What the program prints of a piece.
 pub(crate) fn line(done: &Done) -> String {
@@ -71,13 +71,13 @@ pub(crate) fn write(all: &[Done], everything: bool) -> Result<(), Box<dyn Error>
         if !WITHOUT_SHEET.contains(folder) {
             save(&sheet(pieces)?, &place.join(format!("{folder}.png")))?;
         }
-        put(&place.join("README.md"), &table(pieces, false))?;
+        put(&place.join("README.md"), BEGIN, &table(pieces, false))?;
         if PLOTTED.contains(folder) {
             std::fs::write(place.join("errors.svg"), by_incidence(pieces))?;
         }
     }
     if everything {
-        put(Path::new("asm/README.md"), &table(all, true))?;
+        put(Path::new("asm/README.md"), BEGIN, &table(all, true))?;
         let rgb = DynamicImage::ImageRgba8(contact(all)?).into_rgb8();
         let mut file = BufWriter::new(File::create("docs/gallery.jpg")?);
         JpegEncoder::new_with_quality(&mut file, 88).encode_image(&rgb)?;
@@ -165,13 +165,34 @@ fn by_incidence(pieces: &[Done]) -> String {
         name: "angle of incidence in degrees",
         end: 90.0,
         step: 10.0,
+        label: |degrees| degrees.to_string(),
     };
     let up = Axis {
         name: "error of the direction in degrees",
         end: 24.0,
         step: 4.0,
+        label: |degrees| degrees.to_string(),
     };
     plot(&across, &up, &lines.collect::<Vec<_>>())
+}
+
+/// Means of what lies in each unit of the horizontal axis.
+fn means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let last = points.iter().fold(0.0f64, |last, point| last.max(point[0]));
+    let mut bins = vec![(0.0, 0u32); last as usize + 1];
+    for [across, up] in points {
+        if let Some((sum, count)) = bins.get_mut(*across as usize) {
+            *sum += up;
+            *count += 1;
+        }
+    }
+    let filled = bins
+        .into_iter()
+        .enumerate()
+        .filter(|(_, (_, count))| *count > 0);
+    filled
+        .map(|(at, (sum, count))| [at as f64 + 0.5, sum / f64::from(count)])
+        .collect()
 }
 
 /// A PNG that is as small as can be.
@@ -221,21 +242,4 @@ fn table(pieces: &[Done], links: bool) -> String {
         );
     }
     text
-}
-
-/// Puts a text between the marks of a page.
-fn put(page: &Path, text: &str) -> Result<(), Box<dyn Error>> {
-    let name = page.display();
-    let Ok(old) = std::fs::read_to_string(page) else {
-        eprintln!("{name} is missing");
-        return Ok(());
-    };
-    let Some((before, rest)) = old.split_once(BEGIN) else {
-        return Ok(());
-    };
-    let (_, after) = rest
-        .split_once(END)
-        .ok_or_else(|| format!("{name}: no line `{END}`"))?;
-    std::fs::write(page, format!("{before}{BEGIN}\n{text}{END}{after}"))?;
-    Ok(())
 }

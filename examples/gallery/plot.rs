@@ -8,11 +8,13 @@ pub(crate) struct Line {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// What stands at the axes, and how far they go from 0.
+/// What stands at an axis, and how far it goes from 0.
 pub(crate) struct Axis {
     pub(crate) name: &'static str,
     pub(crate) end: f64,
     pub(crate) step: f64,
+    /// What stands at a number of it.
+    pub(crate) label: fn(f64) -> String,
 }
 
 const SIZE: [f64; 2] = [640.0, 400.0];
@@ -39,7 +41,8 @@ pub(crate) fn plot(across: &Axis, up: &Axis, lines: &[Line]) -> String {
         let (at, below) = (x(value), bottom + 18.0);
         put(format_args!(
             "<path d=\"M{at:.1} {top}V{bottom}\" stroke=\"#dddddd\"/>\
-             <text x=\"{at:.1}\" y=\"{below}\" text-anchor=\"middle\">{value}</text>"
+             <text x=\"{at:.1}\" y=\"{below}\" text-anchor=\"middle\">{}</text>",
+            (across.label)(value)
         ));
     }
     for number in 0..=(up.end / up.step) as u32 {
@@ -47,8 +50,9 @@ pub(crate) fn plot(across: &Axis, up: &Axis, lines: &[Line]) -> String {
         let (at, before) = (y(value), left - 8.0);
         put(format_args!(
             "<path d=\"M{left} {at:.1}H{right}\" stroke=\"#dddddd\"/>\
-             <text x=\"{before}\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>",
-            at + 4.0
+             <text x=\"{before}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+            at + 4.0,
+            (up.label)(value)
         ));
     }
     let middle = f64::midpoint(left, right);
@@ -80,23 +84,4 @@ pub(crate) fn plot(across: &Axis, up: &Axis, lines: &[Line]) -> String {
     }
     svg.push_str("</svg>\n");
     svg
-}
-
-/// Means of what lies in each unit of the horizontal axis.
-pub(crate) fn means(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let last = points.iter().fold(0.0f64, |last, point| last.max(point[0]));
-    let mut bins = vec![(0.0, 0u32); last as usize + 1];
-    for [across, up] in points {
-        if let Some((sum, count)) = bins.get_mut(*across as usize) {
-            *sum += up;
-            *count += 1;
-        }
-    }
-    let filled = bins
-        .into_iter()
-        .enumerate()
-        .filter(|(_, (_, count))| *count > 0);
-    filled
-        .map(|(at, (sum, count))| [at as f64 + 0.5, sum / f64::from(count)])
-        .collect()
 }

@@ -9,9 +9,10 @@ use texcrd::program::Program;
 
 /// Prints what runs: the steps of each shader as the debugger takes them, and as whole frames are drawn with them.
 ///
-/// The first part has a line for each step, behind the number of the line that it came from. The second works on rows, single
+/// The first part has a line for each step, behind the number of the line that it came from. The second works on rows (`n7`), single
 /// components of many pixels or vertices at a time: rows that are filled beforehand, the steps that are taken once a draw, those
-/// that are taken for every batch, and the rows that are left.
+/// that are taken for every batch, and the rows that are left as results. In `mul n3, n1, n2 | n6, n4, n5` one step does the same to two
+/// sets of rows, and the first row of each is the one that is written; a sample writes four, and has `_` for those that nobody reads.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -83,7 +84,8 @@ fn shown(program: &Program, sources: &SourceMap, arguments: &Arguments) -> Resul
         every.len(),
         plan.rows()
     ));
-    text.extend(plan.loads().into_iter().map(plain));
+    text.push_str("filled beforehand:\n");
+    text.extend(wrapped(plan.loads()).into_iter().map(plain));
     if !once.is_empty() {
         text.push_str("once a draw:\n");
         text.extend(once.iter().map(numbered));
@@ -93,4 +95,20 @@ fn shown(program: &Program, sources: &SourceMap, arguments: &Arguments) -> Resul
     text.push_str("left:\n");
     text.extend(plan.results().into_iter().map(plain));
     Ok(text)
+}
+
+/// Short texts behind each other, as many on a line as fit.
+fn wrapped(texts: Vec<String>) -> Vec<String> {
+    const WIDTH: usize = 92;
+    let mut lines: Vec<String> = Vec::new();
+    for text in texts {
+        match lines.last_mut() {
+            Some(line) if line.len() + 2 + text.len() <= WIDTH => {
+                line.push_str(", ");
+                line.push_str(&text);
+            }
+            _ => lines.push(text),
+        }
+    }
+    lines
 }

@@ -8,6 +8,7 @@ use crate::kernel::{Op, Operand, Place, Slot, Step};
 use crate::semantics::{self, Finish};
 use crate::texture::{Detail, details};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// A shader with everything that it runs with.
 #[derive(Clone, Debug)]
@@ -74,7 +75,7 @@ pub fn record<'a>(invocation: Invocation<'a>, edits: &[Edit]) -> Run<'a> {
     }
     let mut recorder = Recorder {
         listing,
-        environment: environment.clone(),
+        environment: Rc::new(environment.clone()),
         registers: initial.clone(),
         moments: Vec::with_capacity(inputs.len() + kernel.steps.len()),
         computed: Vec::new(),
@@ -100,8 +101,8 @@ pub fn record<'a>(invocation: Invocation<'a>, edits: &[Edit]) -> Run<'a> {
         next = kernel.steps[group.end - 1].origin + 1;
         edits.lay_in(&mut recorder, &mut machine);
         edits.done += group.len();
-        let constants = recorder.environment.clone();
-        machine.run_steps(kernel, &constants, group, &mut recorder);
+        let environment = Rc::clone(&recorder.environment);
+        machine.run_steps(kernel, &environment, group, &mut recorder);
     }
     for instruction in next..listing.program.instructions().count() {
         edits.lay_in(&mut recorder, &mut machine);
@@ -154,7 +155,8 @@ impl Edits<'_> {
 
 struct Recorder<'a> {
     listing: Listing<'a>,
-    environment: Environment<'a>,
+    /// Shared with the step that runs; a constant that is set by hand makes a new one.
+    environment: Rc<Environment<'a>>,
     registers: Registers,
     moments: Vec<Moment>,
     /// Steps that are computed, but not written: what they read, their results.
@@ -227,7 +229,8 @@ impl Recorder<'_> {
         match edit.target {
             Target::Slot(slot) => *machine.register_mut(slot) = by_component(&change.after),
             Target::Constant(index) => {
-                if let Some(place) = self.environment.constants.get_mut(index as usize) {
+                let environment = Rc::make_mut(&mut self.environment);
+                if let Some(place) = environment.constants.get_mut(index as usize) {
                     *place = change.after[0];
                 }
             }

@@ -29,6 +29,13 @@ fn steps_stand_behind_their_lines_before_and_after() {
         };
         lines.map(words).collect()
     };
+    // Four components of t1 and c0 are read, of which one is a number.
+    let (_, filled) = after.split_once("filled beforehand:\n").expect("a part");
+    let filled = filled.lines().next().expect("a line");
+    assert!(
+        filled.contains(" = c0.x, ") && filled.ends_with(" = t1.z"),
+        "{filled}"
+    );
     let (once, every) = after.split_once("for every batch:").expect("two parts");
     assert_eq!(
         steps(once.split_once("once a draw:").expect("a part").1),

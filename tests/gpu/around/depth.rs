@@ -15,18 +15,6 @@ fn sets(depth: f32, z: f32) -> Vertex {
     }
 }
 
-/// The eight comparisons, and whether each holds for a new value that is smaller than, equal to and greater than the old.
-const FUNCTIONS: [(&str, [bool; 3]); 8] = [
-    ("never", [false, false, false]),
-    ("less", [true, false, false]),
-    ("equal", [false, true, false]),
-    ("lessequal", [true, true, false]),
-    ("greater", [false, false, true]),
-    ("notequal", [true, false, true]),
-    ("greaterequal", [false, true, true]),
-    ("always", [true, true, true]),
-];
-
 #[test]
 fn depth_tests() {
     let device = crate::device();

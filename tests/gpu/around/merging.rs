@@ -118,16 +118,7 @@ fn the_alpha_test() {
     let device = crate::device();
     let mut columns = Vec::new();
     let with = |alpha: f32| colored(1.0, 1.0, 1.0, alpha / 255.0);
-    for (func, holds) in [
-        ("never", [false, false, false]),
-        ("less", [true, false, false]),
-        ("equal", [false, true, false]),
-        ("lessequal", [true, true, false]),
-        ("greater", [false, false, true]),
-        ("notequal", [true, false, true]),
-        ("greaterequal", [false, true, true]),
-        ("always", [true, true, true]),
-    ] {
+    for (func, holds) in FUNCTIONS {
         // Less than, equal to and greater than 128, each as it is rounded.
         for (alphas, lit) in [[126.6, 127.4], [127.6, 128.4], [128.6, 129.4]]
             .into_iter()

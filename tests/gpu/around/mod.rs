@@ -15,6 +15,19 @@ use texcrd::scene::{LoadOptions, RenderOptions, Scene};
 /// The side of the pictures, unless a test says otherwise. A power of two, so that positions are exact.
 const SIDE: u32 = 16;
 
+/// The eight comparisons, and whether each holds for a left side that is smaller than, equal to and greater than the right one:
+/// the new depth and the old, the reference of the stencil and what is stored, the alpha and its reference.
+const FUNCTIONS: [(&str, [bool; 3]); 8] = [
+    ("never", [false, false, false]),
+    ("less", [true, false, false]),
+    ("equal", [false, true, false]),
+    ("lessequal", [true, true, false]),
+    ("greater", [false, false, true]),
+    ("notequal", [true, false, true]),
+    ("greaterequal", [false, true, true]),
+    ("always", [true, true, true]),
+];
+
 /// A vertex by where it lands on a screen of [`SIDE`] by [`SIDE`] pixels.
 #[derive(Clone, Copy)]
 struct Vertex {

@@ -53,7 +53,7 @@ fn any_lane<const N: usize>(lanes: &[u32; N]) -> bool {
 ///
 /// It holds for every texture and sampler of which [`share_places`] says so.
 #[derive(Clone, Debug)]
-pub(crate) struct Places<const N: usize> {
+pub struct Places<const N: usize> {
     /// Not 0 in lanes whose quad has to be sampled by itself.
     odd: [u32; N],
     any_odd: bool,
@@ -79,7 +79,7 @@ impl<const N: usize> Default for Places<N> {
 }
 
 /// Whether two textures with their samplers are read at the same places wherever coordinates are the same.
-pub(crate) fn share_places(a: (&Texture, &Sampler), b: (&Texture, &Sampler)) -> bool {
+pub fn share_places(a: (&Texture, &Sampler), b: (&Texture, &Sampler)) -> bool {
     let sampler = Sampler {
         border: a.1.border,
         ..*b.1
@@ -174,21 +174,24 @@ impl<const N: usize> Flat<'_, N> {
     }
 }
 
-/// A sample of N lanes as something that is compiled for each set of instructions.
-pub(crate) struct Sample<'a, const N: usize> {
-    pub(crate) texture: &'a Texture,
-    pub(crate) sampler: &'a Sampler,
+/// A sample of `N` lanes, quads as in [`sample_quads`], as something that is compiled for each set of instructions.
+pub struct Sample<'a, const N: usize> {
+    /// The texture.
+    pub texture: &'a Texture,
+    /// How it is read.
+    pub sampler: &'a Sampler,
     /// u, v, w.
-    pub(crate) coords: [&'a [f32; N]; 3],
+    pub coords: [&'a [f32; N]; 3],
     /// Lanes from here on may receive anything.
-    pub(crate) lanes: usize,
+    pub lanes: usize,
     /// Where the lanes are, or memory for it.
-    pub(crate) places: &'a mut Places<N>,
-    /// Whether the places have been found already.
-    pub(crate) found: bool,
+    pub places: &'a mut Places<N>,
+    /// Whether the places have been found already, by a sample at the same coordinates of which [`share_places`] holds.
+    pub found: bool,
     /// The channels that are wanted; the others are left as they are.
-    pub(crate) channels: [bool; 4],
-    pub(crate) out: &'a mut [[f32; N]; 4],
+    pub channels: [bool; 4],
+    /// Receives r, g, b, a.
+    pub out: &'a mut [[f32; N]; 4],
 }
 
 impl<const N: usize> Task for Sample<'_, N> {
