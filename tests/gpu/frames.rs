@@ -14,12 +14,12 @@ const FULL: [u32; 2] = [1280, 960];
 const SMALL: [u32; 2] = [320, 240];
 
 /// What a line of a scene file becomes.
-type Edit<'a> = &'a dyn Fn(&str) -> String;
+pub(crate) type Edit<'a> = &'a dyn Fn(&str) -> String;
 
-/// The folder of the scenes.
-struct Files<'a> {
-    folder: DirectoryResolver,
-    edit: Edit<'a>,
+/// A folder of scenes, whose lines are changed as they are read.
+pub(crate) struct Files<'a> {
+    pub(crate) folder: DirectoryResolver,
+    pub(crate) edit: Edit<'a>,
 }
 
 impl Resolver for Files<'_> {
