@@ -4,7 +4,7 @@
 ; v7       - Texture Coordinates
 ; c0..c3   - World-View-Projection Matrix
 ; c4..c7   - World Matrix
-; c8       - To the light
+; c8       - The way that light goes, of length 1: to the light is -c8
 ; c9       - x: how much fog a unit of distance has on the ground; y: how fast it thins out; z: light that is everywhere; w: 1
 vs.1.1
 m4x4 r0, v0, c0

@@ -4,7 +4,7 @@
 ; v0       - Vertex Position on a tube along y
 ; v3       - Vertex Normal
 ; c0..c3   - View-Projection Matrix
-; c4       - To the light
+; c4       - The way that light goes, of length 1: to the light is -c4
 ; c5       - x: bones for one unit of y; y: bones at y = 0; z: registers of a bone; w: light that is everywhere
 ; c6       - 0, 1, the last place between two bones, .5
 ; c7       - x, y: how often the texture is repeated

@@ -3,7 +3,7 @@
 ; v3, v8, v9 - Normal, Tangent U, Tangent V
 ; v7       - Texture Coordinates
 ; c0..c3   - World-View-Projection Matrix
-; c4       - To the light, in the mesh's own space
+; c4       - The way that light goes, of length 1, in the mesh's own space: to the light is -c4
 ; c5       - x, y: how often the normal map is repeated
 vs.1.1
 m4x4 oPos, v0, c0

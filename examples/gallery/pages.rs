@@ -43,7 +43,11 @@ fn cells(done: &Done) -> Option<[String; 3]> {
     };
     Some([
         format!("{:.2}°", angles.mean),
-        format!("{:.1}°", angles.worst),
+        // A worst angle below the mean would be one that was rounded away.
+        match angles.worst {
+            worst if worst < 1.0 => format!("{worst:.2}°"),
+            worst => format!("{worst:.1}°"),
+        },
         format!("{:.2} %", 100.0 * measured.difference),
     ])
 }

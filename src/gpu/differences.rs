@@ -3,6 +3,12 @@
 use image::RgbaImage;
 
 use crate::raster::Target;
+use crate::scene::LevelRange;
+
+/// How far the level of detail of an adapter may be from the true one, in levels, where nothing says better: that of Mesa's
+/// software adapter, which has a linear mantissa where a logarithm should be, is off by as much. No document of WebGPU or
+/// Vulkan bounds it.
+pub const LEVEL_ERROR: f32 = 0.0625;
 
 /// The differences between two pictures of one size, in steps of 1/255.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,9 +45,18 @@ impl Differences {
     /// Compares what the CPU has drawn with the picture of a GPU, the pixels inside of triangles ([`Target::inside`]) and
     /// those on edges apart; none if they are not of one size.
     pub fn inside_and_on_edges(cpu: &Target, gpu: &RgbaImage) -> Option<[Self; 2]> {
-        let picture = cpu.to_image();
-        let inside = Self::among(&picture, gpu, |x, y| cpu.inside(x, y))?;
-        let edges = Self::among(&picture, gpu, |x, y| !cpu.inside(x, y))?;
+        Self::beside(cpu, &cpu.to_image(), gpu)
+    }
+
+    /// The same, but only what is left of a difference when the levels of detail may be off as the range says.
+    pub fn beyond_levels(cpu: &Target, range: &LevelRange, gpu: &RgbaImage) -> Option<[Self; 2]> {
+        Self::beside(cpu, &range.nearest(gpu), gpu)
+    }
+
+    /// Compares two pictures, the pixels inside of what `cpu` holds and those on edges apart.
+    fn beside(cpu: &Target, picture: &RgbaImage, gpu: &RgbaImage) -> Option<[Self; 2]> {
+        let inside = Self::among(picture, gpu, |x, y| cpu.inside(x, y))?;
+        let edges = Self::among(picture, gpu, |x, y| !cpu.inside(x, y))?;
         Some([inside, edges])
     }
 

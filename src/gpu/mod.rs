@@ -14,7 +14,7 @@
 //!
 //! # What is not the same as on the CPU
 //!
-//! - The coverage of triangle edges and the level of detail are the device's own, within what WebGPU allows.
+//! - The coverage of triangle edges and the level of detail ([`LEVEL_ERROR`]) are the device's own, within what WebGPU allows.
 //! - Which pixels a line covers, and those of a wireframe, is up to the device.
 //! - Floats are filtered as 16-bit ones where the device cannot filter 32-bit ones ([`AdapterInfo::float_filtering`]).
 //! - A mip filter together with different `min` and `mag` filters decides between these behind `D3DTSS_MAXMIPLEVEL`.
@@ -45,7 +45,7 @@ mod uniform;
 mod vertex;
 
 pub use device::{AdapterInfo, Device, adapters};
-pub use differences::{Differences, WorstPixel};
+pub use differences::{Differences, LEVEL_ERROR, WorstPixel};
 pub use error::GpuError;
 pub use invocations::{InvocationInputs, Invocations, Seen, Shading};
 pub use parting::{

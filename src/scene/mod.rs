@@ -6,7 +6,7 @@
 //!
 //! Files, in the order of the data: `section` and `error` (tables key by key, problems with their places), `resolve` and
 //! `files` (bytes), `load` (the whole), `transform`, `mesh`, `texture`, `shader`, `constants`, `state`, `draw`, `target`
-//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `frame` (drawn again and again), `history` (of a pixel), `show` (which registers to picture); `generate` makes pictures by formula.
+//! (its parts), `prepare` (passes), `render`, `rendered` (render targets as textures), `frame` (drawn again and again), `levels` (what other mip levels would make of it), `history` (of a pixel), `show` (which registers to picture); `generate` makes pictures by formula.
 
 mod constants;
 pub(crate) mod draw;
@@ -16,6 +16,7 @@ mod frame;
 pub mod generate;
 mod history;
 pub(crate) mod include;
+mod levels;
 pub(crate) mod load;
 mod mesh;
 mod prepare;
@@ -45,6 +46,7 @@ pub use files::{MAX_SCENE_VERTICES, MAX_TEXELS};
 pub use frame::PreparedFrame;
 pub use history::{MAX_EVENTS, PixelEvent, PixelHistory};
 pub use include::MAX_INCLUDES;
+pub use levels::LevelRange;
 pub use load::{MAX_DRAWS, MAX_ENTRIES};
 pub use prepare::{Output, Pass, PreparedDraw, PreparedStage};
 pub use render::{

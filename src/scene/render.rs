@@ -12,7 +12,7 @@ use crate::raster::{
     Target, TargetTooLarge, TooManyPlanes, draw,
 };
 use crate::sheet::{self, Dressing, SheetTooLarge, Tile};
-use crate::texture::TextureError;
+use crate::texture::{Sampler, Texture, TextureError};
 
 /// How a scene is rendered.
 #[derive(Clone, Debug, Default)]
@@ -313,6 +313,41 @@ impl<'a> Rendering<'a> {
         let prepared = self.passes.get(pass)?.draws.get(draw)?;
         let vertices = self.shaded.get(pass, draw, prepared);
         Some(self.rendered.with_vertices(prepared, vertices))
+    }
+
+    /// A texture of the scene by its number, as the picture reads it.
+    pub(super) fn texture(&self, number: usize) -> Option<&Texture> {
+        self.rendered.texture(number)
+    }
+
+    /// Draws a pass again, from what the render targets hold, with the sampler of each stage of each draw changed; none if
+    /// nothing was drawn there.
+    ///
+    /// # Errors
+    /// As [`Scene::render`].
+    pub(super) fn redrawn(
+        &self,
+        output: Output,
+        change: &dyn Fn(usize, &mut Sampler),
+    ) -> Result<Option<Target>, RenderError> {
+        let found = (self.passes.iter().enumerate()).find(|(_, pass)| pass.output == output);
+        let Some((number, pass)) = found else {
+            return Ok(None);
+        };
+        let [width, height] = pass.size;
+        let mut target =
+            Target::cleared(width, height, &pass.surface).map_err(RenderError::Size)?;
+        for (place, prepared) in pass.draws.iter().enumerate() {
+            let mut changed = prepared.clone();
+            for (stage, prepared) in changed.stages.iter_mut().enumerate() {
+                change(stage, &mut prepared.sampler);
+            }
+            // Vertex shaders read no textures.
+            let vertices = self.shaded.get(number, place, prepared);
+            let shaded = self.rendered.with_vertices(&changed, vertices);
+            draw_with(&shaded, &changed.state, &shaded.shader(), &mut target)?;
+        }
+        Ok(Some(target))
     }
 }
 

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use image::RgbaImage;
-use texcrd::gpu::{Device, Differences, Renderer};
+use texcrd::gpu::{Device, Differences, LEVEL_ERROR, Renderer};
 use texcrd::raster::Target;
 use texcrd::scene::{
-    DirectoryResolver, LoadOptions, RenderOptions, Resolver, Scene, TargetPicture,
+    DirectoryResolver, LoadOptions, Output, RenderOptions, Resolver, Scene, TargetPicture,
 };
 
 /// The size that the scenes name.
@@ -14,12 +14,12 @@ const FULL: [u32; 2] = [1280, 960];
 const SMALL: [u32; 2] = [320, 240];
 
 /// What a line of a scene file becomes.
-type Edit<'a> = &'a dyn Fn(&str) -> String;
+pub(crate) type Edit<'a> = &'a dyn Fn(&str) -> String;
 
-/// The folder of the scenes.
-struct Files<'a> {
-    folder: DirectoryResolver,
-    edit: Edit<'a>,
+/// A folder of scenes, whose lines are changed as they are read.
+pub(crate) struct Files<'a> {
+    pub(crate) folder: DirectoryResolver,
+    pub(crate) edit: Edit<'a>,
 }
 
 impl Resolver for Files<'_> {
@@ -146,60 +146,34 @@ fn stained_glass_without_mips() {
     compare_without_mips("scene.toml");
 }
 
-/// How far the level of detail of the adapter may be below the true one: it has a linear mantissa where a logarithm
-/// should be.
-const LEVEL_ERROR: f32 = 0.0625;
-
-/// With mips, samples with the same coordinates share the error of the adapter's level of detail: those in the room, those
-/// of the cube map, and those on the glass. The CPU draws the scene with every combination of none and all of it. Between
-/// two levels colours are mixed in proportion, so each pixel of the GPU must lie between the least and the greatest of
-/// these values; and a step of 1/255 more, because a direction that a mixed normal turns is not in proportion to it.
+/// With mips. The level of detail of Mesa's software adapter is never above the true one, so that each pixel of the GPU must
+/// lie between what the CPU draws with none and with all of the error, in every combination over the stages; and a step of
+/// 1/255 more, because a direction that a mixed normal turns is not in proportion to it.
 #[test]
 fn with_mips() {
     let Some(device) = crate::device() else {
         return;
     };
     for name in ["figure5.toml", "scene.toml"] {
-        let (_, targets) = on_cpu(name, &small_textures, SMALL);
+        let scene = scene(name, &small_textures);
+        let options = RenderOptions {
+            size: Some(SMALL),
+            show: None,
+        };
+        let cpu = (scene.rendering(&options, &|_| ())).expect("the CPU renders");
+        let range = cpu.level_range(Output::Picture, &[-LEVEL_ERROR, 0.0]);
+        let range = range.expect("the CPU renders").expect("there are mips");
+        let targets = cpu.target_pictures();
         let (gpu, _) = on_gpu(&device, name, &small_textures, SMALL, &targets);
-        let drawn: Vec<_> = (0..8)
-            .map(|which| on_cpu(name, &|line| biased(line, which), SMALL).0)
-            .collect();
-        let mut beyond = std::collections::BTreeMap::<u8, usize>::new();
-        for (x, y, pixel) in gpu.enumerate_pixels() {
-            if !drawn[0].inside(x, y) {
-                continue;
-            }
-            let colors = drawn.iter().map(|target| target.color(x, y));
-            let colors: Vec<_> = colors.map(|color| color.expect("one size")).collect();
-            let of_channel = |channel: usize| {
-                let values = colors.iter().map(|color| color[channel]);
-                let (least, most) = (values.clone().min(), values.max());
-                let value = pixel.0[channel];
-                let below = least.unwrap_or(0).saturating_sub(value);
-                below.max(value.saturating_sub(most.unwrap_or(255)))
-            };
-            let worst = (0..4).map(of_channel).max().unwrap_or(0);
-            *beyond.entry(worst).or_default() += 1;
-        }
-        println!("{name}: pixels by their distance from the CPU's range: {beyond:?}");
-        assert!(beyond.keys().all(|step| *step <= 1), "{name}: {beyond:?}");
-    }
-}
-
-/// A line of a scene with the whole error of the level of detail in some places: 1 for the room, 2 for the cube map, 4 for
-/// the glass. The article's scenes write the stages of the pane in one line each.
-fn biased(line: &str, places: u32) -> String {
-    let line = small_textures(line);
-    let stage = line.trim_start();
-    let (place, between) = match (stage.starts_with("mip"), stage.starts_with('2')) {
-        (true, _) => (1, "\n"),
-        (_, true) => (2, ", "),
-        _ => (4, ", "),
-    };
-    match places & place {
-        0 => line,
-        _ => line.replace(MIP, &format!("{MIP}{between}lod_bias = {:?}", -LEVEL_ERROR)),
+        let [plain, _] = Differences::inside_and_on_edges(cpu.picture(), &gpu)
+            .expect("the pictures have one size");
+        let [beyond, _] = Differences::beyond_levels(cpu.picture(), &range, &gpu)
+            .expect("the pictures have one size");
+        println!("{name}: {:?}", plain.counts().collect::<Vec<_>>());
+        println!("beyond levels: {:?}", beyond.counts().collect::<Vec<_>>());
+        // Were the pictures equal without any of this, it would show nothing.
+        assert!(plain.max() > 1);
+        assert!(beyond.max() <= 1, "{name}: {:?}", beyond.worst);
     }
 }
 

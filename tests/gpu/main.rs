@@ -8,6 +8,7 @@ mod around;
 mod cases;
 mod exact;
 mod frames;
+mod gallery;
 mod matching;
 mod models;
 mod pictures;

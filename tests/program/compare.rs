@@ -183,6 +183,54 @@ fn render_targets_are_compared_by_themselves() {
     }
 }
 
+/// 11 texels on 8 pixels: ρ² is 1.891, whose logarithm is 0.919, and 0.891 with the linear mantissa of Mesa's software adapter.
+/// Half of the difference, 0.014 of a level, is 3.6 steps of 1/255 from black to white.
+#[test]
+fn levels_of_detail_may_be_off() {
+    if gpu_is_off() {
+        return;
+    }
+    let folder = folder("compare_levels");
+    let path = folder.join("scene.toml");
+    let texels =
+        |count: usize, value: u8| vec![format!("[{value}, {value}, {value}, 1]"); count].join(", ");
+    let text = format!(
+        "size = [8, 8]\n[meshes.all]\n\
+         positions = [[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]\n\
+         texcoords = [[0, 0], [1, 0], [1, 1], [0, 1]]\nindices = [0, 1, 2, 0, 2, 3]\n\
+         [textures.steep]\nkind = \"2d\"\nsize = [11, 11]\ntexels = [{}]\nmips = [[{}], [{}], [{}]]\n\
+         [[draw]]\nname = \"all\"\nmesh = \"all\"\n\
+         vs_text = \"vs.1.1\\nmov oPos, v0\\nmov oT0.xy, v7\\n\"\n\
+         ps_text = \"ps.1.1\\ntex t0\\nmov r0, t0\\n\"\n\
+         [draw.stages]\n0 = {{ texture = \"steep\", filter = \"linear\", mip = \"linear\" }}\n",
+        texels(121, 0),
+        texels(25, 1),
+        texels(4, 1),
+        texels(1, 1),
+    );
+    fs::write(&path, text).expect("the file can be written");
+    let scene = path.to_str().expect("a readable path");
+    let (status, report) = json(&["compare", scene, "--format", "json"]);
+    assert_eq!(status, 0, "{report}");
+    assert_eq!(report["level_error"], 0.0625);
+    let of = |report: &Value, key: &str| report["inside"][key].as_u64();
+    assert_eq!(of(&report, "beyond_levels"), Some(0), "{report}");
+    if of(&report, "above_tolerance") == Some(0) {
+        eprintln!("the adapter has exact levels of detail: nothing to explain");
+        return;
+    }
+    let ran = texcrd(&["compare", scene]);
+    assert!(
+        ran.out
+            .contains(", levels of detail that are off by up to 0.0625 left out"),
+        "{}",
+        ran.out
+    );
+    let (status, report) = json(&["compare", scene, "--level-error", "0", "--format", "json"]);
+    assert_eq!(status, 1, "{report}");
+    assert_eq!(of(&report, "beyond_levels"), of(&report, "above_tolerance"));
+}
+
 #[test]
 fn what_compare_refuses() {
     let scene = parted("compare_refused", false);
@@ -193,6 +241,8 @@ fn what_compare_refuses() {
         (vec![&scene, "--tolerance", "256"], 2, "--tolerance"),
         (vec![&scene, "--pixel", "8,0"], 2, "outside"),
         (vec![&scene, "--pixel", "8"], 2, "--pixel"),
+        (vec![&scene, "--level-error", "1.5"], 2, "--level-error"),
+        (vec![&scene, "--level-error", "NaN"], 2, "--level-error"),
         (vec![&scene, "--part-tolerance=-1"], 2, "--part-tolerance"),
         (vec![&scene, "-o", "no/such/folder/d.png"], 2, "no folder"),
         (vec![&scene, "-o", "differences.jpg"], 2, "PNG"),

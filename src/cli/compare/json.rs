@@ -1,6 +1,8 @@
 //! What was found, for programs.
 
-use super::{CHANNELS, Findings, FragmentComparison, LineComparison, Pixel, register_name};
+use super::{
+    CHANNELS, Compared, Findings, FragmentComparison, LineComparison, Pixel, register_name,
+};
 use crate::cli::eval::{json_number, json_vector};
 use serde_json::{Map, Value, json};
 use texcrd::gpu::{Differences, Pair, Parting};
@@ -12,14 +14,16 @@ pub(super) fn report(findings: &Findings<'_>) -> Value {
     let tolerance = arguments.tolerance;
     let targets = (findings.targets.iter())
         .map(|face| {
+            let [inside, on_edges] = of_places(&face.compared, tolerance);
             json!({
                 "target": face.target,
                 "face": face.face,
-                "inside": of_pixels(&face.inside, tolerance),
-                "on_edges": of_pixels(&face.edges, tolerance),
+                "inside": inside,
+                "on_edges": on_edges,
             })
         })
         .collect();
+    let [inside, on_edges] = of_places(&findings.picture, tolerance);
     let mut report = of_pixels(&findings.all, tolerance);
     let head = [
         ("scene", json!(arguments.scene)),
@@ -27,15 +31,10 @@ pub(super) fn report(findings: &Findings<'_>) -> Value {
         ("size", json!([width, height])),
         ("tolerance", json!(tolerance)),
         ("strict", json!(arguments.strict)),
+        ("level_error", json_number(arguments.level_error)),
         ("passed", json!(findings.passed())),
-        (
-            "inside",
-            Value::Object(of_pixels(&findings.inside, tolerance)),
-        ),
-        (
-            "on_edges",
-            Value::Object(of_pixels(&findings.edges, tolerance)),
-        ),
+        ("inside", inside),
+        ("on_edges", on_edges),
         ("targets", Value::Array(targets)),
         (
             "pixel",
@@ -44,6 +43,16 @@ pub(super) fn report(findings: &Findings<'_>) -> Value {
     ];
     report.extend(head.map(|(key, value)| (key.to_string(), value)));
     Value::Object(report)
+}
+
+/// The numbers of the pixels inside triangles and of those on edges, with those that levels of detail do not explain.
+fn of_places(compared: &Compared, tolerance: u8) -> [Value; 2] {
+    let [inside, edges] = compared.judged();
+    [(&compared.inside, inside), (&compared.edges, edges)].map(|(all, judged)| {
+        let mut object = of_pixels(all, tolerance);
+        object.insert("beyond_levels".into(), json!(judged.above(tolerance)));
+        Value::Object(object)
+    })
 }
 
 /// The numbers of some of the pixels.

@@ -10,30 +10,31 @@ use image::RgbaImage;
 use std::path::PathBuf;
 use texcrd::diagnostic::Span;
 use texcrd::gpu::{
-    Differences, FragmentComparison, GpuError, LineComparison, PixelComparison, Renderer,
-    compare_pixel,
+    Differences, FragmentComparison, GpuError, LEVEL_ERROR, LineComparison, PixelComparison,
+    Renderer, compare_pixel,
 };
 use texcrd::kernel::Slot;
 use texcrd::policy::Dialect;
 use texcrd::program::Program;
 use texcrd::raster::Target;
-use texcrd::scene::{PreparedDraw, RenderOptions, Scene};
+use texcrd::scene::{Output, PreparedDraw, RenderOptions, Rendering, Scene, TargetPicture};
 
 /// Renders a scene on the CPU and on the GPU and says where they differ, and where a pixel's registers part.
 ///
 /// Differences are in steps of 1/255, of pixels inside triangles and of those on edges apart: which triangle covers a
 /// pixel on an edge is a matter of rounding, and no two rasterizers agree on all. The exit status is 1 if a pixel inside
-/// differs by more than the tolerance, in the picture or in a render target. What samples render targets reads those of the
-/// CPU on both paths.
+/// differs by more than the tolerance, in the picture or in a render target, and levels of detail that are a little off do
+/// not explain it. What samples render targets reads those of the CPU on both paths.
 ///
 /// Of the worst pixel, or another one, the registers are shown on both sides, and the first instruction whose registers
 /// part: the pixel shader is cut after each of its instructions and run again on the GPU.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  texcrd compare asm/stained_glass/scene.toml --tolerance 3
+  texcrd compare asm/stained_glass/scene.toml
   texcrd compare scene.toml --tolerance 8 -o differences.png
   texcrd compare scene.toml --pixel 120,84 --all-lines
+  texcrd compare scene.toml --level-error 0 --tolerance 3
   texcrd compare scene.toml --adapter llvmpipe --format json
 
 docs/compare.md says how to read what is printed.")]
@@ -47,6 +48,11 @@ pub(super) struct Arguments {
     /// Do not accept greater differences on edges of triangles either.
     #[arg(long)]
     strict: bool,
+    /// By how many mip levels the level of detail of the GPU may be off, 0 to 1; 0: not at all. Where a pixel differs by
+    /// more than the tolerance, the CPU draws with the levels of each stage moved that far either way, and only what lies
+    /// beyond all of that counts.
+    #[arg(long, value_name = "LEVELS", default_value_t = LEVEL_ERROR, value_parser = level_error)]
+    level_error: f32,
     /// Where a picture of the differences goes: over the dark picture, yellow to red inside triangles, blue on edges.
     #[arg(short, long, value_name = "DIFF.png", value_parser = scene::picture)]
     output: Option<PathBuf>,
@@ -99,16 +105,20 @@ fn part_tolerance(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| format!("`{text}` is no tolerance: write a number of 0 or more"))
 }
 
+/// The value parser of `--level-error`.
+fn level_error(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|n: &f32| (0.0..=1.0).contains(n));
+    number.ok_or_else(|| format!("`{text}` is no part of a level: write a number from 0 to 1"))
+}
+
 /// What was found out.
 struct Findings<'a> {
     arguments: &'a Arguments,
     scene: &'a Scene,
     size: [u32; 2],
     adapter: String,
-    /// All pixels, those inside triangles, those on edges.
     all: Differences,
-    inside: Differences,
-    edges: Differences,
+    picture: Compared,
     targets: Vec<TargetFace>,
     pixel: Option<Pixel>,
 }
@@ -117,8 +127,56 @@ struct Findings<'a> {
 struct TargetFace {
     target: String,
     face: usize,
+    compared: Compared,
+}
+
+/// The pixels of a picture, those inside triangles and those on edges.
+struct Compared {
     inside: Differences,
     edges: Differences,
+    /// What is left of the differences when levels of detail may be off; none if nothing had to be explained, or there are
+    /// no mip levels that could.
+    beyond_levels: Option<[Differences; 2]>,
+}
+
+impl Compared {
+    /// Compares what was drawn.
+    fn new(
+        arguments: &Arguments,
+        rendering: &Rendering<'_>,
+        output: Output,
+        gpu: &RgbaImage,
+    ) -> Result<Self, Failure> {
+        let unequal = || Failure::Input("the two pictures are not of one size".into());
+        let cpu = rendering.drawn(output).ok_or_else(unequal)?;
+        let [inside, edges] = Differences::inside_and_on_edges(cpu, gpu).ok_or_else(unequal)?;
+        let error = arguments.level_error;
+        let apart = [&inside, &edges].map(|found| found.above(arguments.tolerance));
+        let range = match error == 0.0 || apart == [0, 0] {
+            true => None,
+            false => (rendering.level_range(output, &[-error, error]))
+                .map_err(|error| Failure::Input(format!("{}: {error}", arguments.scene)))?,
+        };
+        Ok(Self {
+            beyond_levels: range.and_then(|range| Differences::beyond_levels(cpu, &range, gpu)),
+            inside,
+            edges,
+        })
+    }
+
+    /// What counts: the differences inside triangles and on edges that levels do not explain.
+    fn judged(&self) -> [&Differences; 2] {
+        let all = || [&self.inside, &self.edges];
+        self.beyond_levels
+            .as_ref()
+            .map_or_else(all, |[inside, edges]| [inside, edges])
+    }
+
+    /// How many pixels differ by more than is accepted.
+    fn above(&self, arguments: &Arguments) -> u64 {
+        let [inside, edges] = self.judged().map(|found| found.above(arguments.tolerance));
+        inside + if arguments.strict { edges } else { 0 }
+    }
 }
 
 /// The pixel that was looked into.
@@ -160,24 +218,29 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     // The same render targets for both, so that a difference in one is told once, where it arises.
     let given = cpu.target_pictures();
     let mut gpu = scene::draw_on_gpu(&mut renderer, &loaded, &arguments.scene, &options, &given)?;
-    let unequal = || Failure::Input("the two pictures are not of one size".into());
     let image = cpu.picture().to_image();
+    let unequal = || Failure::Input("the two pictures are not of one size".into());
     let all = Differences::between(&image, gpu.picture()).ok_or_else(unequal)?;
-    let [inside, edges] =
-        Differences::inside_and_on_edges(cpu.picture(), gpu.picture()).ok_or_else(unequal)?;
-    let targets = (cpu.targets().iter().zip(gpu.targets()))
-        .filter_map(|(on_cpu, on_gpu)| {
-            let found = Differences::inside_and_on_edges(&on_cpu.drawn, &on_gpu.picture)?;
-            let [inside, edges] = found;
-            Some(TargetFace {
-                target: loaded.target(on_cpu.target)?.name.to_string(),
-                face: on_cpu.face,
-                inside,
-                edges,
-            })
+    let picture = Compared::new(arguments, &cpu, Output::Picture, gpu.picture())?;
+    let targets = gpu.targets().iter().map(|on_gpu| {
+        let TargetPicture {
+            target,
+            face,
+            ref picture,
+        } = *on_gpu;
+        Ok(TargetFace {
+            target: loaded
+                .target(target)
+                .map_or("", |target| target.name)
+                .to_string(),
+            face,
+            compared: Compared::new(arguments, &cpu, Output::Target { target, face }, picture)?,
         })
-        .collect();
-    let worst = inside.worst.or(all.worst).map(|worst| [worst.x, worst.y]);
+    });
+    let targets = targets.collect::<Result<_, Failure>>()?;
+    let [judged, _] = picture.judged();
+    let worst = judged.worst.or(picture.inside.worst).or(all.worst);
+    let worst = worst.map(|worst| [worst.x, worst.y]);
     let pixel = (arguments.pixel.or(worst)).map(|[x, y]| Pixel {
         inside: cpu.picture().inside(x, y),
         cpu: image.get_pixel(x, y).0,
@@ -190,8 +253,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         size,
         adapter: device.adapter().to_string(),
         all,
-        inside,
-        edges,
+        picture,
         targets,
         pixel,
     };
@@ -211,16 +273,12 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
 impl Findings<'_> {
     /// How many pixels of the picture, and of render targets, differ by more than is accepted.
     fn above(&self) -> [u64; 2] {
-        let Arguments {
-            tolerance, strict, ..
-        } = *self.arguments;
-        let above = |inside: &Differences, edges: &Differences| {
-            inside.above(tolerance) + if strict { edges.above(tolerance) } else { 0 }
-        };
         let targets = self.targets.iter();
         [
-            above(&self.inside, &self.edges),
-            targets.map(|face| above(&face.inside, &face.edges)).sum(),
+            self.picture.above(self.arguments),
+            targets
+                .map(|face| face.compared.above(self.arguments))
+                .sum(),
         ]
     }
 

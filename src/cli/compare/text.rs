@@ -1,14 +1,13 @@
 //! What was found, for people.
 
 use super::{
-    CHANNELS, Findings, FragmentComparison, LineComparison, Pixel, PixelComparison, TargetFace,
-    register_name,
+    CHANNELS, Compared, Findings, FragmentComparison, LineComparison, Pixel, PixelComparison,
+    TargetFace, register_name,
 };
 use std::fmt::Write;
 use texcrd::gpu::{Differences, Pair, Parting, WorstPixel};
 use texcrd::program::Program;
 use texcrd::raster::Fate;
-use texcrd::texture::MipFilter;
 
 pub(super) fn report(findings: &Findings<'_>) -> String {
     let mut out = String::new();
@@ -23,7 +22,7 @@ pub(super) fn report(findings: &Findings<'_>) -> String {
 
 /// The numbers of the whole picture.
 fn whole(out: &mut String, findings: &Findings<'_>) -> std::fmt::Result {
-    let (inside, edges) = (&findings.inside, &findings.edges);
+    let Compared { inside, edges, .. } = &findings.picture;
     let [width, height] = findings.size;
     let (scene, adapter) = (&findings.arguments.scene, &findings.adapter);
     writeln!(
@@ -52,7 +51,7 @@ fn whole(out: &mut String, findings: &Findings<'_>) -> std::fmt::Result {
         let row = format!("  {step:>26} {:>12}{:>12}", of(inside), of(edges));
         writeln!(out, "{}", row.trim_end())?;
     }
-    if findings.edges.above(findings.arguments.tolerance) > 0 {
+    if edges.above(findings.arguments.tolerance) > 0 {
         writeln!(
             out,
             "On edges, where depth bends from one pixel to the next, rounding decides which triangle covers a pixel:\n\
@@ -70,15 +69,14 @@ fn targets(out: &mut String, findings: &Findings<'_>) -> std::fmt::Result {
     let same = |a: &TargetFace, b: &TargetFace| a.target == b.target;
     for faces in findings.targets.chunk_by(same) {
         let name = faces.first().map_or("", |face| face.target.as_str());
-        let of = |found: fn(&TargetFace) -> &Differences| {
-            let max = faces.iter().map(|face| found(face).max()).max();
+        let of = |found: fn(&Compared) -> &Differences| {
+            let found = || faces.iter().map(|face| found(&face.compared));
             let tolerance = findings.arguments.tolerance;
-            let above: u64 = (faces.iter())
-                .map(|face| found(face).above(tolerance))
-                .sum();
-            format!("at most {} ({above} above {tolerance})", max.unwrap_or(0))
+            let above: u64 = found().map(|found| found.above(tolerance)).sum();
+            let max = found().map(Differences::max).max().unwrap_or(0);
+            format!("at most {max} ({above} above {tolerance})")
         };
-        let (inside, edges) = (of(|face| &face.inside), of(|face| &face.edges));
+        let (inside, edges) = (of(|found| &found.inside), of(|found| &found.edges));
         writeln!(
             out,
             "render target `{name}`, which both paths sample as the CPU has it: inside {inside}, on edges {edges}"
@@ -111,31 +109,27 @@ fn verdict(out: &mut String, findings: &Findings<'_>) -> std::fmt::Result {
         false => " inside triangles",
     };
     let [picture, targets] = findings.above();
-    let sentence = |count: u64| match count {
-        0 => format!("no pixel{place} differs by more than {tolerance}"),
-        1 => format!("1 pixel{place} differs by more than {tolerance}"),
-        above => format!("{above} pixels{place} differ by more than {tolerance}"),
+    let levels = |compared: &[&Compared]| {
+        let explained = compared
+            .iter()
+            .any(|compared| compared.beyond_levels.is_some());
+        let error = findings.arguments.level_error;
+        explained.then(|| format!(", levels of detail that are off by up to {error} left out"))
     };
-    writeln!(out, "\n{}", sentence(picture))?;
-    if targets > 0 {
-        writeln!(out, "in render targets: {}", sentence(targets))?;
-    }
-    if picture + targets > 0 && has_mip_filters(findings) {
-        writeln!(
-            out,
-            "The scene has mip filters, and the level of detail is the device's own, by up to a sixteenth of a level on\n\
-             Mesa's software adapter: some pixels a few steps apart, and --tolerance for them, are no fault."
-        )?;
+    let sentence = |count: u64, compared: &[&Compared]| {
+        let levels = levels(compared).unwrap_or_default();
+        match count {
+            0 => format!("no pixel{place} differs by more than {tolerance}{levels}"),
+            1 => format!("1 pixel{place} differs by more than {tolerance}{levels}"),
+            above => format!("{above} pixels{place} differ by more than {tolerance}{levels}"),
+        }
+    };
+    let faces: Vec<_> = findings.targets.iter().map(|face| &face.compared).collect();
+    writeln!(out, "\n{}", sentence(picture, &[&findings.picture]))?;
+    if targets > 0 || levels(&faces).is_some() {
+        writeln!(out, "in render targets: {}", sentence(targets, &faces))?;
     }
     Ok(())
-}
-
-fn has_mip_filters(findings: &Findings<'_>) -> bool {
-    let passes = findings.scene.passes(findings.size);
-    let mut stages = (passes.iter())
-        .flat_map(|pass| &pass.draws)
-        .flat_map(|draw| &draw.stages);
-    stages.any(|stage| stage.texture.is_some() && stage.sampler.mip != MipFilter::None)
 }
 
 /// What draws a pixel, and the registers of what is seen of it.
