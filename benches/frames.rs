@@ -1,7 +1,7 @@
 //! What a frame is made of: lowering, plans, batches of every operation, triangles, whole frames.
 //!
 //! `cargo bench --no-default-features --features scene,parallel --bench frames`; BENCHMARKS.md says what came out. *batch* runs a
-//! listing of sixteen times the same instruction on 32 lanes that hold zeros; *frame* begins with everything prepared, as
+//! listing of sixteen times the same instruction on 64 lanes that hold zeros; *frame* begins with everything prepared, as
 //! `texcrd bench` does.
 #![allow(
     clippy::expect_used,
@@ -44,7 +44,7 @@ fn plans(c: &mut Criterion) {
 
 fn batches(c: &mut Criterion) {
     let mut group = c.benchmark_group("batch");
-    group.throughput(Throughput::Elements(16 * 32));
+    group.throughput(Throughput::Elements(16 * 64));
     for instruction in [
         "add r0, r0, v1",
         "mul r0, r0, v1",
@@ -65,12 +65,12 @@ fn batches(c: &mut Criterion) {
             constants: bind_constants(&kernel, &[]),
             ..Environment::default()
         };
-        let mut batch = Batch::<32>::default();
+        let mut batch = Batch::<64>::default();
         batch.load(&plan, &environment);
         let simd = Simd::chosen();
         let name = instruction.split(' ').next().unwrap_or_default();
         group.bench_function(BenchmarkId::from_parameter(name), |b| {
-            b.iter(|| batch.run(simd, black_box(&plan), &environment, 32));
+            b.iter(|| batch.run(simd, black_box(&plan), &environment, 64));
         });
     }
     group.finish();
