@@ -1,7 +1,7 @@
 //! What a frame is made of: lowering, plans, batches of every operation, a step by itself, triangles, whole frames.
 //!
 //! `cargo bench --no-default-features --features scene,parallel --bench frames`; BENCHMARKS.md says what came out. *batch* runs a
-//! listing of sixteen times the same instruction on 32 lanes that hold zeros, *step* on the four of the interpreter that a debugger
+//! listing of sixteen times the same instruction on 64 lanes that hold zeros, *step* on the four of the interpreter that a debugger
 //! watches, with nobody watching; *triangle* draws many of one kind in one colour, each shaded as it comes; *frame* begins with everything prepared, as
 //! `texcrd bench` does.
 #![allow(
@@ -64,7 +64,7 @@ const INSTRUCTIONS: [&str; 12] = [
 
 fn batches(c: &mut Criterion) {
     let mut group = c.benchmark_group("batch");
-    group.throughput(Throughput::Elements(16 * 32));
+    group.throughput(Throughput::Elements(16 * 64));
     for instruction in INSTRUCTIONS {
         let kernel = kernel(&sixteen(instruction));
         let plan = Plan::new(&kernel);
@@ -72,12 +72,12 @@ fn batches(c: &mut Criterion) {
             constants: bind_constants(&kernel, &[]),
             ..Environment::default()
         };
-        let mut batch = Batch::<32>::default();
+        let mut batch = Batch::<64>::default();
         batch.load(&plan, &environment);
         let simd = Simd::chosen();
         let name = instruction.split(' ').next().unwrap_or_default();
         group.bench_function(BenchmarkId::from_parameter(name), |b| {
-            b.iter(|| batch.run(simd, black_box(&plan), &environment, 32));
+            b.iter(|| batch.run(simd, black_box(&plan), &environment, 64));
         });
     }
     group.finish();

@@ -4,7 +4,7 @@ use crate::isa::WriteMask;
 
 /// Pixels that are shaded together. A multiple of 4: lanes 4q to 4q+3 are the quad (x, y), (x+1, y), (x, y+1),
 /// (x+1, y+1), with x and y even.
-pub const LANES: usize = 32;
+pub const LANES: usize = 64;
 
 /// Quads that are shaded together.
 pub(super) const QUADS: usize = LANES / 4;

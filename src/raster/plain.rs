@@ -118,9 +118,12 @@ pub(super) fn put_plain(tile: &mut Tile, batch: &PixelBatch, shaded: &PixelResul
         let Some(stored) = tile.color.as_chunks_mut::<4>().0.get_mut(at) else {
             continue;
         };
-        let live = bits(*live);
-        let old = stored.map(u32::from_le_bytes);
-        *stored = replaced(live, colors, &old).map(u32::to_le_bytes);
+        // Inside of a shape, where nearly all quads are, nothing is read.
+        let (live, mut new) = (bits(*live), *colors);
+        if live != 0xf {
+            new = replaced(live, colors, &stored.map(u32::from_le_bytes));
+        }
+        *stored = new.map(u32::to_le_bytes);
         written += u64::from(live.count_ones());
     }
     written

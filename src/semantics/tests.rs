@@ -33,6 +33,30 @@ fn a_product_with_zero_is_zero() {
 }
 
 #[test]
+fn a_product_too_small_for_any_number_is_zero() {
+    same(mul(-1e-30, 1e-30), 0.0);
+    // A denormal one keeps its sign.
+    same(mul(-1e-20, 1e-20), -1e-40);
+}
+
+/// Of finite factors both rules give the same, in every sum.
+#[test]
+fn finite_factors_need_no_rule_of_zero() {
+    let factors = [0.0, -0.0, 1.0, -1.0, 0.3, 1e-30, -1e-30, 1e38, -1e38];
+    for a in factors {
+        for b in factors {
+            same(OfFinite::product(a, b), mul(a, b));
+            for c in factors {
+                same(mad::<OfFinite>(a, b, c), mad::<ZeroWins>(a, b, c));
+                same(lrp::<OfFinite>(a, b, c), lrp::<ZeroWins>(a, b, c));
+                let (v, w) = ([a, b, c, 0.0], [b, c, -0.0, a]);
+                same(dp4::<OfFinite>(v, w), dp4::<ZeroWins>(v, w));
+            }
+        }
+    }
+}
+
+#[test]
 fn products_of_ieee_know_nan() {
     same(Ieee::product(0.0, INF), NAN);
     same(Ieee::product(-0.0, 3.0), -0.0);

@@ -145,3 +145,70 @@ fn modified(modifier: SourceModifier, of: f32) -> f32 {
         SourceModifier::X2 | SourceModifier::X2Negate => 2.0 * of,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::SourceMap;
+    use crate::kernel::{Options, lower};
+    use crate::syntax;
+
+    fn reach(listing: &str) -> (Plan, Reach) {
+        let mut sources = SourceMap::new();
+        let parsed = syntax::parse(sources.add("test", listing).unwrap());
+        let plan = Plan::new(&lower(&parsed.program.unwrap(), &Options::default()).unwrap());
+        let reach = Reach::new(&plan, &[]);
+        (plan, reach)
+    }
+
+    #[test]
+    fn the_limit_is_the_greatest_at_which_nothing_overflows() {
+        // The last of these reads the 8th power: of 65536 that is 2¹²⁸, of 4096 it is 2⁹⁶.
+        let squares = "mul r0, v0, v0\n".to_owned() + &"mul r0, r0, r0\n".repeat(3);
+        let (plan, reach) = reach(&format!("vs.1.1\n{squares}mov oPos, r0\n"));
+        assert_eq!(reach.limit, 4096.0);
+        assert!((0..plan.steps.len()).all(|step| reach.is_finite(step)));
+        assert!(!reach.is_finite(plan.steps.len()));
+    }
+
+    #[test]
+    fn behind_a_reciprocal_anything_may_come() {
+        let (plan, reach) = reach(
+            "vs.1.1\nmul r0, v0, v0\nrcp r1.x, r0.x\nmul r2, r0, r1.x\nmin r3, r2, r0\nmov oPos, r3\n",
+        );
+        let finite = |op: RowOp| {
+            let of_op = plan
+                .steps
+                .iter()
+                .enumerate()
+                .filter(|(_, step)| step.op == op);
+            of_op
+                .map(|(number, _)| reach.is_finite(number))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(finite(RowOp::Mul), [true, false]);
+        assert_eq!(finite(RowOp::Min), [false]);
+        // What does not help is not waited for.
+        assert_eq!(reach.limit, 65536.0);
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_within_a_limit() {
+        let reach = Reach {
+            limit: 2.0,
+            finite: Vec::new(),
+        };
+        for (number, admitted) in [
+            (-2.0, true),
+            (0.0, true),
+            (2.5, false),
+            (f32::NAN, false),
+            (-f32::NAN, false),
+            (f32::NEG_INFINITY, false),
+        ] {
+            let mut greatest = [0; 4];
+            raise(&mut greatest, &[0.5, number, -1.0, 0.0]);
+            assert_eq!(reach.admits(&greatest), admitted, "{number}");
+        }
+    }
+}

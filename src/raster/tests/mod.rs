@@ -4,6 +4,7 @@ mod coverage;
 mod inputs;
 mod interpolation;
 mod merging;
+mod plain;
 mod record;
 mod robustness;
 
