@@ -124,6 +124,7 @@ impl<'a> Primitives<'a> {
     }
 
     /// The vertices of primitive `i`, which must be less than [`Self::len`]. A line repeats its last, a point its only one.
+    #[inline(always)]
     pub(super) fn get(&self, i: usize) -> [u32; 3] {
         let corners = match self.topology {
             Topology::PointList => [i, i, i],

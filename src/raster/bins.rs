@@ -316,3 +316,83 @@ impl Found<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::{
+        CullMode, DrawCall, FillMode, RenderState, Topology, Vertex, Vertices, Viewport,
+    };
+    use crate::simd::Simd;
+
+    const SIDE: u32 = 8 * TILE;
+
+    /// The primitives that each tile of a target of 8×8 tiles is given, batch by batch, and where the batches end: triangles
+    /// over the whole target, each with vertices of its own.
+    fn sorted(count: usize, fill: FillMode) -> (Vec<Vec<usize>>, Vec<usize>) {
+        let corner = |x: f32, y: f32| Vertex {
+            position: glam::vec4(x, y, 0.5, 1.0),
+            ..Vertex::default()
+        };
+        let one = [corner(-1.0, 1.0), corner(4.0, 1.0), corner(-1.0, -4.0)];
+        let vertices = Vertices::from(&one.repeat(count)[..]);
+        let state = RenderState {
+            cull: CullMode::None,
+            fill,
+            ..RenderState::default()
+        };
+        let call = DrawCall {
+            viewport: Viewport::full(SIDE, SIDE),
+            state: &state,
+            topology: Topology::TriangleList,
+            vertices: &vertices,
+            indices: None,
+        };
+        let stage = Stage::new(call, (SIDE, SIDE)).unwrap();
+        let primitives = Primitives::new(Topology::TriangleList, vertices.len(), None).unwrap();
+        let screen = Screen::new(&stage, &vertices, Simd::chosen());
+        let sorter = Sorter {
+            stage: &stage,
+            primitives: &primitives,
+            screen: (fill == FillMode::Solid).then_some(&screen),
+            across: 8,
+            tiles: 64,
+        };
+        let (mut found, mut ends) = (vec![Vec::new(); 64], vec![0]);
+        while ends[ends.len() - 1] < primitives.len() {
+            let bins = Bins::new(&sorter, ends[ends.len() - 1]);
+            for (tile, found) in found.iter_mut().enumerate() {
+                for (piece, entry) in bins
+                    .of(tile)
+                    .flat_map(|(p, es)| es.iter().map(move |e| (p, e)))
+                {
+                    let owner = piece.find(&sorter, *entry).unwrap().owner();
+                    found.push(owner.provoking as usize / 3);
+                }
+            }
+            ends.push(bins.end().unwrap());
+        }
+        (found, ends)
+    }
+
+    #[test]
+    fn each_tile_has_each_primitive_once_and_in_order() {
+        // 64 tiles a triangle: 65536 entries are reached behind each 1024th.
+        let (found, ends) = sorted(3000, FillMode::Solid);
+        assert_eq!(ends, [0, 1024, 2048, 3000]);
+        assert!(found.iter().all(|tile| tile.iter().copied().eq(0..3000)));
+    }
+
+    #[test]
+    fn so_it_is_with_shapes_that_are_kept() {
+        // Three lines a triangle: 2048 are reached behind each 683rd.
+        let (found, ends) = sorted(2500, FillMode::Wireframe);
+        assert_eq!(ends, [0, 683, 1366, 2049, 2500]);
+        // Lines are in all tiles of the rectangle around them: the long edge everywhere, the upper and the left one there.
+        let times = |tile: usize, times: usize| {
+            let expected = (0..2500).flat_map(|i| std::iter::repeat_n(i, times));
+            found[tile].iter().copied().eq(expected)
+        };
+        assert!(times(0, 3) && times(7, 2) && times(56, 2) && times(63, 1));
+    }
+}

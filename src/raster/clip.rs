@@ -97,17 +97,21 @@ impl Clipper {
     /// is of what has the same one at all of them.
     #[inline(always)]
     pub(super) fn outside(&self, positions: &[Row; 4]) -> [u16; LANES] {
+        let [xs, ys, zs, ws] = positions;
         let mut outside = [0; LANES];
-        for (lane, outside) in outside.iter_mut().enumerate() {
-            let finite = positions.iter().all(|row| row[lane].is_finite());
-            *outside = if finite { 0 } else { Self::BROKEN };
+        for lane in 0..LANES {
+            let of = [xs[lane], ys[lane], zs[lane], ws[lane]];
+            let finite =
+                of[0].is_finite() & of[1].is_finite() & of[2].is_finite() & of[3].is_finite();
+            outside[lane] = if finite { 0 } else { Self::BROKEN };
         }
         for (number, plane) in self.planes.iter().enumerate() {
-            for (lane, outside) in outside.iter_mut().enumerate() {
-                let distance = plane.distance(&positions.map(|row| f64::from(row[lane])));
+            let bit = 1 << number;
+            for lane in 0..LANES {
+                let of = [xs[lane], ys[lane], zs[lane], ws[lane]];
                 // A plane of NaN keeps nothing.
-                let inside = distance >= 0.0;
-                *outside |= u16::from(!inside) << number;
+                let inside = plane.distance(&of.map(f64::from)) >= 0.0;
+                outside[lane] |= if inside { 0 } else { bit };
             }
         }
         outside

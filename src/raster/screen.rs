@@ -140,9 +140,10 @@ impl Task for Project<'_> {
             z: [0.0; LANES],
             w: [0.0; LANES],
         };
+        let [xs, ys, zs, ws] = self.positions;
         for lane in 0..LANES {
-            let position = self.positions.map(|row| f64::from(row[lane]));
-            let spot = self.projection.spot(position);
+            let position = [xs[lane], ys[lane], zs[lane], ws[lane]];
+            let spot = self.projection.spot(position.map(f64::from));
             block.x[lane] = spot.x;
             block.y[lane] = spot.y;
             block.z[lane] = spot.z;

@@ -424,6 +424,19 @@ mod tests {
         assert_eq!(target.to_image().dimensions(), (130, 65));
     }
 
+    #[test]
+    fn buffers_are_cleared_one_by_one() {
+        let mut target = Target::new(2, 1, ColorFormat::A8R8G8B8).unwrap();
+        target.clear(Some([1, 2, 3, 4]), Some(0.5), Some(9));
+        target.clear(None, Some(0.25), None);
+        let holds =
+            |target: &Target| (target.color(1, 0), target.depth(1, 0), target.stencil(1, 0));
+        assert_eq!(holds(&target), (Some([1, 2, 3, 4]), Some(0.25), Some(9)));
+        target.clear(Some([5; 4]), None, Some(7));
+        assert_eq!(holds(&target), (Some([5; 4]), Some(0.25), Some(7)));
+        assert_eq!(target.to_image().get_pixel(1, 0).0, [5; 4]);
+    }
+
     /// A slope over the whole, and a step of 1/8 between columns 4 and 5.
     #[test]
     fn what_is_inside() {

@@ -23,6 +23,23 @@ fn a_rectangle_of_one_colour() {
 }
 
 #[test]
+fn a_frame_is_cleared_before_it_is_drawn_again() {
+    let half = quad([-1.0, -1.0, 0.0, 1.0]);
+    let scene = loaded(&format!(
+        "size = [4, 1]\nclear = [0.2, 0, 0, 1]\n[meshes.half]\n{half}\n[[draw]]\nmesh = \"half\"\n\
+         vs = \"flat.vsh\"\nps = \"c0.psh\"\nps_constants = {{ c0 = [0.2, 0.4, 0, 0] }}\n\
+         state = {{ alpha_blend = true, src_blend = \"one\", dest_blend = \"one\" }}\n"
+    ));
+    let mut frame = scene.prepare_frame([4, 1]).unwrap();
+    // 0.2 · 255 = 51, and the same again where something is drawn.
+    let (drawn, clear) = ([102, 102, 0, 255], [51, 0, 0, 255]);
+    for _ in 0..3 {
+        frame.draw().unwrap();
+        assert_eq!(pixels(frame.picture()), [drawn, drawn, clear, clear]);
+    }
+}
+
+#[test]
 fn a_texture_and_states() {
     // Two texels, green and blue, over the left and the right half; added to the red of the clear colour.
     let whole = quad([-1.0, -1.0, 1.0, 1.0]);
