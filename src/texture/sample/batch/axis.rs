@@ -1,88 +1,114 @@
 //! Which texels of each axis the lanes read, and where they lie in memory.
 
 use super::levels::LevelRows;
-use super::{FAR, floor, int};
+use super::{FAR, floor, int, low_bits};
 use crate::texture::AddressMode;
 use crate::texture::sample::share;
 
 /// The texels of one axis.
 pub(super) struct Axis<const N: usize> {
     /// The index of the one before the coordinate.
-    near: [f32; N],
+    near: [u32; N],
     /// The index of the one behind it.
-    far: [f32; N],
+    far: [u32; N],
     /// The share of the latter.
     f: [f32; N],
     /// Whether each `far` follows its `near`.
     adjacent: bool,
 }
 
+/// How indices become texels.
+#[derive(Clone, Copy)]
+pub(super) struct Addressing {
+    pub(super) mode: AddressMode,
+    /// Whether the axis has a power of two of texels in every level.
+    pub(super) power_of_two: bool,
+}
+
 impl<const N: usize> Axis<N> {
-    /// Of coordinates on an axis of `n` texels. Marks what it cannot do as odd.
+    /// Of coordinates on an axis of `n` texels; `half` is 0.5 for a linear filter, else 0. Marks what it cannot do as odd.
     #[inline(always)]
     pub(super) fn new(
         u: &[f32; N],
         n: &[f32; N],
-        half: &[f32; N],
-        mode: AddressMode,
+        half: f32,
+        addressing: Addressing,
         coarse: bool,
         odd: &mut [u32; N],
     ) -> Self {
         let mut axis = Self {
-            near: [0.0; N],
-            far: [0.0; N],
+            near: [0; N],
+            far: [0; N],
             f: [0.0; N],
             adjacent: true,
         };
-        let mut outside = 0;
+        let mut index = [0.0; N];
+        let (mut beyond, mut outside) = (0, 0);
         for l in 0..N {
-            let x = u[l] * n[l] - half[l];
+            let x = u[l] * n[l] - half;
             let i = floor(x);
-            axis.near[l] = i;
-            axis.far[l] = i + 1.0;
-            axis.f[l] = if half[l] > 0.0 { x - i } else { 0.0 };
+            index[l] = i;
+            axis.f[l] = x - i;
             // Also where it is not a number.
-            odd[l] |= u32::from(x.abs() < FAR) ^ 1;
+            beyond |= u32::from(x.abs() < FAR) ^ 1;
             outside |= u32::from(i < 0.0) | u32::from(i + 1.0 >= n[l]);
         }
-        if coarse {
+        if beyond != 0 {
+            for (l, odd) in odd.iter_mut().enumerate() {
+                *odd |= u32::from((u[l] * n[l] - half).abs() < FAR) ^ 1;
+            }
+        }
+        if half == 0.0 {
+            axis.f = [0.0; N];
+        } else if coarse {
             for f in &mut axis.f {
                 *f = share::<true>(*f);
             }
         }
-        if outside != 0 {
+        if outside == 0 {
+            for (l, i) in index.iter().enumerate() {
+                axis.near[l] = int(*i);
+                axis.far[l] = axis.near[l].wrapping_add(1);
+            }
+        } else {
             axis.adjacent = false;
-            axis.address(n, mode, odd);
+            axis.address(&index, n, addressing, odd);
         }
         axis
     }
 
     /// Takes indices into the texture.
     #[inline(always)]
-    fn address(&mut self, n: &[f32; N], mode: AddressMode, odd: &mut [u32; N]) {
-        match mode {
-            AddressMode::Wrap => {
-                for (l, n) in n.iter().enumerate() {
-                    let near = remainder(self.near[l], *n);
-                    self.near[l] = near;
-                    self.far[l] = if near + 1.0 >= *n { 0.0 } else { near + 1.0 };
+    fn address(
+        &mut self,
+        index: &[f32; N],
+        n: &[f32; N],
+        addressing: Addressing,
+        odd: &mut [u32; N],
+    ) {
+        match addressing.mode {
+            AddressMode::Wrap if addressing.power_of_two => {
+                for l in 0..N {
+                    let mask = int(n[l]).wrapping_sub(1);
+                    let near = low_bits(index[l]);
+                    self.near[l] = near & mask;
+                    self.far[l] = near.wrapping_add(1) & mask;
                 }
             }
-            AddressMode::Mirror => self.each(n, |i, n| {
+            AddressMode::Wrap => self.each(index, n, remainder),
+            AddressMode::Mirror => self.each(index, n, |i, n| {
                 let k = remainder(i, 2.0 * n);
                 if k < n { k } else { 2.0 * n - 1.0 - k }
             }),
-            AddressMode::Clamp => {
-                self.each(n, |i, n| at_most(n - 1.0, if i < 0.0 { 0.0 } else { i }))
-            }
-            AddressMode::MirrorOnce => {
-                self.each(n, |i, n| {
-                    at_most(n - 1.0, if i < 0.0 { -1.0 - i } else { i })
-                });
-            }
+            AddressMode::Clamp => self.each(index, n, |i, n| {
+                at_most(n - 1.0, if i < 0.0 { 0.0 } else { i })
+            }),
+            AddressMode::MirrorOnce => self.each(index, n, |i, n| {
+                at_most(n - 1.0, if i < 0.0 { -1.0 - i } else { i })
+            }),
             AddressMode::Border => {
                 for l in 0..N {
-                    let beyond = u32::from(self.near[l] < 0.0) | u32::from(self.far[l] >= n[l]);
+                    let beyond = u32::from(index[l] < 0.0) | u32::from(index[l] + 1.0 >= n[l]);
                     odd[l] |= beyond;
                 }
             }
@@ -90,10 +116,10 @@ impl<const N: usize> Axis<N> {
     }
 
     #[inline(always)]
-    fn each(&mut self, n: &[f32; N], texel: impl Fn(f32, f32) -> f32) {
+    fn each(&mut self, index: &[f32; N], n: &[f32; N], texel: impl Fn(f32, f32) -> f32) {
         for (l, n) in n.iter().enumerate() {
-            self.near[l] = texel(self.near[l], *n);
-            self.far[l] = texel(self.far[l], *n);
+            self.near[l] = int(texel(index[l], *n));
+            self.far[l] = int(texel(index[l] + 1.0, *n));
         }
     }
 }
@@ -154,13 +180,13 @@ impl<const N: usize> Grid<N> {
         let [upper_left, upper_right, lower_left, lower_right] = &mut self.corners;
         // Odd lanes hold any numbers: nothing here may overflow loudly.
         for l in 0..N {
-            let row = |j: f32| rows.base[l].wrapping_add(int(j).wrapping_mul(rows.stride[l]));
-            let (upper, lower) = (row(down.near[l]), row(down.far[l]));
-            let (left, right) = (int(across.near[l]), int(across.far[l]));
-            upper_left[l] = upper.wrapping_add(left);
-            upper_right[l] = upper.wrapping_add(right);
-            lower_left[l] = lower.wrapping_add(left);
-            lower_right[l] = lower.wrapping_add(right);
+            let (base, stride) = (rows.base[l], rows.stride[l]);
+            let upper = base.wrapping_add(down.near[l].wrapping_mul(stride));
+            let lower = base.wrapping_add(down.far[l].wrapping_mul(stride));
+            upper_left[l] = upper.wrapping_add(across.near[l]);
+            upper_right[l] = upper.wrapping_add(across.far[l]);
+            lower_left[l] = lower.wrapping_add(across.near[l]);
+            lower_right[l] = lower.wrapping_add(across.far[l]);
         }
         self.x = across.f;
         self.y = down.f;

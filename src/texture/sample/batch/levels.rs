@@ -9,8 +9,8 @@ use glam::{Vec4, Vec4Swizzles};
 
 /// What [`Choice`](crate::texture::sample::Choice) says of one lane, of all.
 pub(super) struct Detailed<const N: usize> {
-    /// 0.5 where the filter is linear, else 0.
-    pub(super) half: [f32; N],
+    /// 0.5 if the filter is linear, else 0.
+    pub(super) half: f32,
     /// The numbers of the levels.
     pub(super) first: [f32; N],
     pub(super) second: [f32; N],
@@ -28,7 +28,7 @@ impl<const N: usize> Detailed<N> {
     #[inline(always)]
     pub(super) fn fixed(sampler: &Sampler) -> Self {
         Self {
-            half: [half(sampler.mag); N],
+            half: half(sampler.mag),
             first: [0.0; N],
             second: [0.0; N],
             blend: [0.0; N],
@@ -56,8 +56,18 @@ impl<const N: usize> Detailed<N> {
             }
         }
         let (minified, magnified) = (half(sampler.min), half(sampler.mag));
-        for (half, lambda) in detailed.half.iter_mut().zip(&lambdas) {
-            *half = if *lambda > 0.0 { minified } else { magnified };
+        if minified != magnified {
+            // A batch has one filter. Where it is magnified and minified, the lanes of the other one are odd.
+            let mut any_minified = 0;
+            for lambda in &lambdas {
+                any_minified |= u32::from(*lambda > 0.0);
+            }
+            if any_minified != 0 {
+                detailed.half = minified;
+                for (odd, lambda) in odd.iter_mut().zip(&lambdas) {
+                    *odd |= u32::from(*lambda > 0.0) ^ 1;
+                }
+            }
         }
         let last = texture.levels.len().saturating_sub(1);
         let largest = last.min(sampler.max_mip_level as usize) as f32;
@@ -100,7 +110,7 @@ impl<const N: usize> Detailed<N> {
     /// Whether no lane has a linear filter.
     #[inline(always)]
     pub(super) fn is_point(&self) -> bool {
-        !any_bits(&self.half)
+        self.half == 0.0
     }
 
     /// Whether any lane reads two levels.

@@ -18,7 +18,7 @@ use super::super::storage::Texels;
 use super::{Choice, Sampler, Texture, TextureKind, UNBOUND, sample_quad};
 use crate::simd::{Simd, Task};
 use crate::texture::{AddressMode, Weights};
-use axis::{Axis, Grid};
+use axis::{Addressing, Axis, Grid};
 use levels::{Detailed, LevelRows};
 
 /// Texel coordinates up to here, exclusive, keep their halves: what [`floor`] and [`int`] can do.
@@ -31,6 +31,13 @@ fn floor(x: f32) -> f32 {
     const SHIFT: f32 = 12_582_912.0;
     let nearest = (x + SHIFT) - SHIFT;
     nearest - if nearest > x { 1.0 } else { 0.0 }
+}
+
+/// The lowest 22 bits of a whole number within ±[`FAR`], as two's complement has them, and others above these.
+#[inline(always)]
+fn low_bits(x: f32) -> u32 {
+    // 3 · 2²², of which a unit is the last bit and these bits are clear.
+    (x + 12_582_912.0).to_bits()
 }
 
 /// A whole number from 0 to 2²³ − 1 as an integer; of anything else any integer.
@@ -166,8 +173,12 @@ impl<const N: usize> Flat<'_, N> {
     #[inline(always)]
     fn grid(&self, level: &[f32; N], odd: &mut [u32; N], grid: &mut Grid<N>) {
         let rows = LevelRows::new(&self.texture.levels, level, self.face);
-        let [along_u, along_v] = self.modes;
-        let (half, coarse) = (&self.detailed.half, self.coarse);
+        let size = self.texture.size();
+        let [along_u, along_v] = [0, 1].map(|axis| Addressing {
+            mode: self.modes[axis],
+            power_of_two: size[axis].is_power_of_two(),
+        });
+        let (half, coarse) = (self.detailed.half, self.coarse);
         let across = Axis::new(self.u, &rows.width, half, along_u, coarse, odd);
         let down = Axis::new(self.v, &rows.height, half, along_v, coarse, odd);
         grid.join(&rows, &across, &down, self.detailed.is_point());
