@@ -107,6 +107,7 @@ impl<const N: usize> Axis<N> {
                 at_most(n - 1.0, if i < 0.0 { -1.0 - i } else { i })
             }),
             AddressMode::Border => {
+                self.each(index, n, |i, _| i);
                 for l in 0..N {
                     let beyond = u32::from(index[l] < 0.0) | u32::from(index[l] + 1.0 >= n[l]);
                     odd[l] |= beyond;
