@@ -71,8 +71,12 @@ impl<const N: usize> Axis<N> {
                 axis.far[l] = axis.near[l].wrapping_add(1);
             }
         } else {
-            axis.adjacent = false;
             axis.address(&index, n, addressing, odd);
+            let mut apart = 0;
+            for l in 0..N {
+                apart |= axis.far[l] ^ axis.near[l].wrapping_add(1);
+            }
+            axis.adjacent = apart == 0;
         }
         axis
     }
