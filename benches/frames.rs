@@ -20,7 +20,7 @@ use texcrd::exec::{Batch, Environment, Machine, bind_constants};
 use texcrd::kernel::{Kernel, Options, Plan, lower};
 use texcrd::raster::{
     ColorFormat, CullMode, DrawCall, PixelBatch, PixelInputs, PixelResult, PixelShader,
-    RenderState, Target, Topology, Vertex, draw,
+    RenderState, Target, Topology, Vertex, Vertices, draw,
 };
 use texcrd::simd::Simd;
 use texcrd::syntax;
@@ -122,7 +122,7 @@ impl PixelShader for White {
 const SIDE: u32 = 512;
 
 /// Triangles with legs of so many pixels in rows over the target. `behind`: how many of the corners of each are in front of the nearest plane.
-fn grid(count: usize, leg: f32, behind: usize) -> Vec<Vertex> {
+fn grid(count: usize, leg: f32, behind: usize) -> Vertices {
     let clip = |pixels: f32| 2.0 * pixels / SIDE as f32 - 1.0;
     let across = (SIDE as f32 / leg) as usize;
     let corners = |number: usize| {
@@ -138,7 +138,8 @@ fn grid(count: usize, leg: f32, behind: usize) -> Vec<Vertex> {
             }
         })
     };
-    (0..count).flat_map(corners).collect()
+    let corners: Vec<Vertex> = (0..count).flat_map(corners).collect();
+    Vertices::from(&corners[..])
 }
 
 fn triangles(c: &mut Criterion) {

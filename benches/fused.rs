@@ -22,7 +22,7 @@ use texcrd::raster::{
     PixelResult, PixelShader, Target, draw,
 };
 use texcrd::scene::{Output, RenderOptions, Rendering};
-use texcrd::semantics::{dp3, flush, lrp, mad, modify, product};
+use texcrd::semantics::{OfFinite, Products, dp3, flush, lrp, mad, modify};
 use texcrd::simd::{Simd, Task};
 use texcrd::texture::{MipFilter, Places, Sample, share_places};
 
@@ -30,7 +30,7 @@ const SIZE: [u32; 2] = [1920, 1080];
 /// So many batches are measured at a time: less than a millisecond, in which a busy machine seldom turns to something else.
 const PIECE: usize = 64;
 
-/// `asm/stained_glass/stained_glass.psh`, written by hand.
+/// `asm/stained_glass/stained_glass.psh`, written by hand by somebody who knows that all its numbers are finite.
 struct Fused<'a> {
     environment: &'a Environment<'a>,
     simd: Simd,
@@ -127,8 +127,8 @@ impl Task for ByHand<'_, '_> {
             let n: [f32; 3] = std::array::from_fn(|c| modify(Bx2, flush(normal[c][lane])));
             for (c, row) in [row0, row1, row2].into_iter().enumerate() {
                 let row = std::array::from_fn(|c| flush(row[c][lane]));
-                let world = flush(dp3::<false>(row, n));
-                let mixed = flush(lrp::<false>(index, -flush(eye[c][lane]), -world));
+                let world = flush(dp3::<OfFinite>(row, n));
+                let mixed = flush(lrp::<OfFinite>(index, -flush(eye[c][lane]), -world));
                 turned[c][lane] = world;
                 refracted[c][lane] = flush(flush(shift[c][lane]) + mixed);
             }
@@ -147,12 +147,12 @@ impl Task for ByHand<'_, '_> {
         };
         for c in 0..3 {
             for lane in 0..LANES {
-                let specular = flush(product::<false>(
+                let specular = flush(OfFinite::product(
                     flush(gloss[c][lane]),
                     flush(reflection[c][lane]),
                 ));
                 let light = modify(X2, flush(diffuse[c][lane]));
-                let color = mad::<false>(flush(base[c][lane]), light, specular);
+                let color = mad::<OfFinite>(flush(base[c][lane]), light, specular);
                 self.out.color[c][lane] = flush(color);
             }
         }
