@@ -11,8 +11,8 @@ mod step;
 #[cfg(test)]
 mod tests;
 
-use super::environment::Environment;
-use crate::kernel::{Plan, RowOp, Slot, UniformValue};
+use super::environment::{Environment, STAGES};
+use crate::kernel::{Plan, RowOp, RowStep, Slot, UniformValue};
 use crate::semantics::flush;
 use crate::simd::{Simd, Task};
 use reach::Reach;
@@ -139,15 +139,32 @@ impl<const N: usize> Batch<N> {
                     simd,
                 },
             );
-            if let RowOp::Sample(_) = step.op {
-                let results = plan.items(step).flat_map(|(results, _)| results);
-                let mut greatest = [0; N];
-                for row in results.filter_map(|row| self.rows.get(*row)) {
-                    reach::raise(&mut greatest, row);
-                }
-                self.within &= self.reach.admits(&greatest);
+            if let RowOp::Sample(stage) = step.op {
+                let stage = &environment.stages[usize::from(stage) % STAGES];
+                // What is packed is from 0 to 1, however it is filtered.
+                let unit = |border: &f32| border.abs() <= 1.0;
+                self.within &= match stage.texture {
+                    Some(texture)
+                        if !texture.format().is_packed()
+                            || !stage.sampler.border.iter().all(unit) =>
+                    {
+                        self.is_within(plan, step)
+                    }
+                    _ => self.reach.admits(&[1.0_f32.to_bits()]),
+                };
             }
         }
+    }
+
+    /// Whether the results of a step are as small as is wanted.
+    #[inline(always)]
+    fn is_within(&self, plan: &Plan, step: &RowStep) -> bool {
+        let results = plan.items(step).flat_map(|(results, _)| results);
+        let mut greatest = [0; N];
+        for row in results.filter_map(|row| self.rows.get(*row)) {
+            reach::raise(&mut greatest, row);
+        }
+        self.reach.admits(&greatest)
     }
 
     /// The components that the shader leaves in a slot; of one that is no output of it nothing.

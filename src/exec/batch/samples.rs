@@ -3,7 +3,7 @@
 use super::step::Turn;
 use crate::exec::environment::{Environment, STAGES, Stage};
 use crate::kernel::{Plan, RowOp};
-use crate::texture::{Places, Sample, sample_quads, share_places};
+use crate::texture::{Places, Sample, UNBOUND, sample_quads, share_places};
 
 /// Where the samples of a plan are read, as far as they share it.
 #[derive(Clone, Debug)]
@@ -12,6 +12,8 @@ pub(super) struct Samples<const N: usize> {
     steps: Vec<Sharing>,
     /// The first is for those that nobody shares.
     places: Vec<Places<N>>,
+    /// What was read last.
+    texels: [[f32; N]; 4],
 }
 
 /// Which places a sample uses.
@@ -27,6 +29,7 @@ impl<const N: usize> Default for Samples<N> {
         Self {
             steps: Vec::new(),
             places: vec![Places::default()],
+            texels: [[0.0; N]; 4],
         }
     }
 }
@@ -63,7 +66,7 @@ impl<const N: usize> Samples<N> {
         }
     }
 
-    /// Takes the sample of a step: the channels that are wanted.
+    /// Takes the sample of a step: the channels that are wanted; the others are anything.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
@@ -71,33 +74,31 @@ impl<const N: usize> Samples<N> {
         stage: &Stage<'_>,
         coords: [&[f32; N]; 3],
         channels: [bool; 4],
-    ) -> [[f32; N]; 4] {
-        let mut out = [[0.0; N]; 4];
-        let Some(texture) = stage.texture else {
-            out[3] = [1.0; N];
-            return out;
-        };
-        if N <= 4 || !N.is_multiple_of(4) {
-            sample_quads(
-                Some(texture),
-                &stage.sampler,
-                &coords.map(|row| *row),
-                &mut out,
-            );
-            return out;
-        }
+    ) -> &[[f32; N]; 4] {
         let sharing = self.steps.get(turn.number).copied().unwrap_or_default();
-        if let Some(places) = self.places.get_mut(sharing.places) {
-            turn.simd.run(Sample {
-                texture,
-                sampler: &stage.sampler,
-                coords,
-                lanes: turn.lanes,
-                places,
-                found: sharing.found,
-                channels,
-                out: &mut out,
-            });
+        let out = &mut self.texels;
+        match (stage.texture, self.places.get_mut(sharing.places)) {
+            (Some(texture), Some(places)) if N > 4 && N.is_multiple_of(4) => {
+                turn.simd.run(Sample {
+                    texture,
+                    sampler: &stage.sampler,
+                    coords,
+                    lanes: turn.lanes,
+                    places,
+                    found: sharing.found,
+                    channels,
+                    out,
+                });
+            }
+            (None, _) => {
+                for (channel, row) in out.iter_mut().enumerate() {
+                    *row = [UNBOUND[channel]; N];
+                }
+            }
+            (texture, _) => {
+                let coords = [*coords[0], *coords[1], *coords[2]];
+                sample_quads(texture, &stage.sampler, &coords, out);
+            }
         }
         out
     }

@@ -2,9 +2,9 @@
 
 use super::rows::Rows;
 use super::samples::Samples;
-use crate::exec::environment::{Environment, STAGES};
+use crate::exec::environment::{Environment, STAGES, Stage};
 use crate::isa::{ResultModifier, SourceModifier};
-use crate::kernel::{NO_ROW, Plan, RowFinish, RowOp, RowStep};
+use crate::kernel::{NO_ROW, Plan, Row, RowFinish, RowOp, RowStep};
 use crate::policy::{Model, ZeroProduct};
 use crate::semantics::{self, Finish, Ieee, OfFinite, Products, ZeroWins};
 use crate::simd::Simd;
@@ -119,9 +119,7 @@ pub(super) fn take<const N: usize>(
         RowOp::Reflect => on.reflect(),
         RowOp::Sample(stage) => {
             let stage = &environment.stages[usize::from(stage) % STAGES];
-            on.several_of(|wanted, [u, v, w]: [&[f32; N]; 3]| {
-                samples.take(turn, stage, [u, v, w], wanted)
-            });
+            on.sample(samples, turn, stage);
         }
         RowOp::Kill => {
             for (_, sources) in plan.items(step) {
@@ -221,34 +219,40 @@ impl<const N: usize> On<'_, N> {
         &mut self,
         f: impl Fn([&[f32; N]; S]) -> [[f32; N]; R],
     ) {
-        self.several_of(|_, sources| f(sources));
-    }
-
-    /// The same, told which of the results are wanted.
-    #[inline(always)]
-    fn several_of<const S: usize, const R: usize>(
-        &mut self,
-        mut f: impl FnMut([bool; R], [&[f32; N]; S]) -> [[f32; N]; R],
-    ) {
         let none = [0.0; N];
         for (results, sources) in self.plan.items(self.step) {
-            let wanted = std::array::from_fn(|i| results.get(i).is_some_and(|row| *row != NO_ROW));
-            let values = f(
-                wanted,
-                std::array::from_fn(|i| {
-                    let row = sources.get(i).and_then(|row| self.rows.get(*row));
-                    row.unwrap_or(&none)
-                }),
-            );
-            match self.step.finish {
-                RowFinish::Keep | RowFinish::Flush => {
-                    self.rows.store(results, &values, semantics::flush);
-                }
-                RowFinish::Full(modifier) => {
-                    let finish = Finish::new(modifier);
-                    self.rows.store(results, &values, |x| finish.apply(x));
-                }
+            let values = f(std::array::from_fn(|i| {
+                let row = sources.get(i).and_then(|row| self.rows.get(*row));
+                row.unwrap_or(&none)
+            }));
+            self.leave(results, &values);
+        }
+    }
+
+    /// Writes results, each behind what the step does to it.
+    #[inline(always)]
+    fn leave(&mut self, results: &[Row], values: &[[f32; N]]) {
+        match self.step.finish {
+            RowFinish::Keep | RowFinish::Flush => {
+                self.rows.store(results, values, semantics::flush);
             }
+            RowFinish::Full(modifier) => {
+                let finish = Finish::new(modifier);
+                self.rows.store(results, values, |x| finish.apply(x));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sample(&mut self, samples: &mut Samples<N>, turn: Turn, stage: &Stage<'_>) {
+        let (plan, none) = (self.plan, [0.0; N]);
+        for (results, sources) in plan.items(self.step) {
+            let wanted = std::array::from_fn(|i| results.get(i).is_some_and(|row| *row != NO_ROW));
+            let coordinates = std::array::from_fn(|i| {
+                let row = sources.get(i).and_then(|row| self.rows.get(*row));
+                row.unwrap_or(&none)
+            });
+            self.leave(results, samples.take(turn, stage, coordinates, wanted));
         }
     }
 

@@ -29,7 +29,7 @@ pub use detail::{Detail, details};
 pub use footprint::{Footprint, Tap, footprint};
 
 /// What a stage without a texture reads.
-const UNBOUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
+pub(crate) const UNBOUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// A coordinate that arithmetic can be done with: NaN is 0, infinities are the largest finite numbers.
 #[inline(always)]
