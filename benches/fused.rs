@@ -24,7 +24,7 @@ use texcrd::raster::{
 use texcrd::scene::{Output, RenderOptions, Rendering};
 use texcrd::semantics::{OfFinite, Products, dp3, flush, lrp, mad, modify};
 use texcrd::simd::{Simd, Task};
-use texcrd::texture::{MipFilter, Places, Sample, share_places};
+use texcrd::texture::{Memory, MipFilter, Places, Sample, share_places};
 
 const SIZE: [u32; 2] = [1920, 1080];
 /// So many batches are measured at a time: less than a millisecond, in which a busy machine seldom turns to something else.
@@ -39,6 +39,7 @@ struct Fused<'a> {
     sharing: [bool; 2],
     /// Where the cube maps are read.
     alone: Places<LANES>,
+    memory: Memory<LANES>,
 }
 
 impl<'a> Fused<'a> {
@@ -55,6 +56,7 @@ impl<'a> Fused<'a> {
             shared: Places::default(),
             sharing,
             alone: Places::default(),
+            memory: Memory::default(),
         }
     }
 
@@ -82,6 +84,7 @@ fn sampled(
     stage: &Stage<'_>,
     coords: [&[f32; LANES]; 3],
     places: &mut Places<LANES>,
+    memory: &mut Memory<LANES>,
     found: bool,
     channels: [bool; 4],
 ) -> Attribute {
@@ -96,6 +99,7 @@ fn sampled(
         coords,
         lanes: LANES,
         places,
+        memory,
         found,
         channels,
         out: &mut texels,
@@ -114,12 +118,13 @@ impl Task for ByHand<'_, '_> {
             shared,
             sharing: [base_shares, gloss_shares],
             alone,
+            memory,
         } = self.shader;
         let simd = *simd;
         let [at, row0, row1, row2, eye, shift, ..] = &self.pixels.texcoords;
         let index = constants.first().map_or(0.0, |c0| c0[0]);
         let at = [&at[0], &at[1], &at[2]];
-        let normal = sampled(simd, &stages[0], at, shared, false, RGB);
+        let normal = sampled(simd, &stages[0], at, shared, memory, false, RGB);
         // The normal in the world, and the refracted view from the middle of the cube map.
         let mut turned = [[0.0; LANES]; 3];
         let mut refracted = [[0.0; LANES]; 3];
@@ -133,17 +138,33 @@ impl Task for ByHand<'_, '_> {
                 refracted[c][lane] = flush(flush(shift[c][lane]) + mixed);
             }
         }
-        let reflection = sampled(simd, &stages[2], refracted.each_ref(), alone, false, RGB);
-        let diffuse = sampled(simd, &stages[4], turned.each_ref(), alone, false, RGB);
+        let reflection = sampled(
+            simd,
+            &stages[2],
+            refracted.each_ref(),
+            alone,
+            memory,
+            false,
+            RGB,
+        );
+        let diffuse = sampled(
+            simd,
+            &stages[4],
+            turned.each_ref(),
+            alone,
+            memory,
+            false,
+            RGB,
+        );
         // Those that do not share find their own places, and must not take those of `t0` away.
         let (base, gloss) = (&stages[3], &stages[5]);
         let base = match *base_shares {
-            true => sampled(simd, base, at, shared, true, [true; 4]),
-            false => sampled(simd, base, at, alone, false, [true; 4]),
+            true => sampled(simd, base, at, shared, memory, true, [true; 4]),
+            false => sampled(simd, base, at, alone, memory, false, [true; 4]),
         };
         let gloss = match *gloss_shares {
-            true => sampled(simd, gloss, at, shared, true, RGB),
-            false => sampled(simd, gloss, at, alone, false, RGB),
+            true => sampled(simd, gloss, at, shared, memory, true, RGB),
+            false => sampled(simd, gloss, at, alone, memory, false, RGB),
         };
         for c in 0..3 {
             for lane in 0..LANES {

@@ -20,7 +20,7 @@ pub use error::TextureError;
 pub use format::{Format, Signed, words_to_bytes};
 pub use irradiance::MAX_IRRADIANCE_EDGE;
 pub use sample::{Detail, Footprint, Tap, details, footprint, sample_at, sample_quads};
-pub use sample::{Places, Sample, share_places};
+pub use sample::{Memory, Places, Sample, share_places};
 pub(crate) use sample::{RATIO_SLACK, UNBOUND};
 pub use sampler::{AddressMode, Filter, MipFilter, Sampler, UnknownName, Weights};
 pub use storage::{MAX_BYTES, MAX_EDGE, Texture, TextureKind};

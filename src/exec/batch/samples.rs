@@ -3,7 +3,7 @@
 use super::step::Turn;
 use crate::exec::environment::{Environment, STAGES, Stage};
 use crate::kernel::{Plan, RowOp};
-use crate::texture::{Places, Sample, UNBOUND, sample_quads, share_places};
+use crate::texture::{Memory, Places, Sample, UNBOUND, sample_quads, share_places};
 
 /// Where the samples of a plan are read, as far as they share it.
 #[derive(Clone, Debug)]
@@ -12,6 +12,7 @@ pub(super) struct Samples<const N: usize> {
     steps: Vec<Sharing>,
     /// The first is for those that nobody shares.
     places: Vec<Places<N>>,
+    memory: Memory<N>,
     /// What was read last.
     texels: [[f32; N]; 4],
 }
@@ -29,6 +30,7 @@ impl<const N: usize> Default for Samples<N> {
         Self {
             steps: Vec::new(),
             places: vec![Places::default()],
+            memory: Memory::default(),
             texels: [[0.0; N]; 4],
         }
     }
@@ -85,6 +87,7 @@ impl<const N: usize> Samples<N> {
                     coords,
                     lanes: turn.lanes,
                     places,
+                    memory: &mut self.memory,
                     found: sharing.found,
                     channels,
                     out,

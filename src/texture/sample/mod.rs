@@ -23,7 +23,7 @@ use super::cube::{AcrossEdge, across_edge, direction_to_face, face_to_direction}
 use super::storage::{FloatStore, Level, PackedStore, Store, Texels};
 use super::{AddressMode, Filter, MipFilter, Sampler, Texture, TextureKind, Weights};
 
-pub use batch::{Places, Sample, sample_quads, share_places};
+pub use batch::{Memory, Places, Sample, sample_quads, share_places};
 pub(crate) use detail::RATIO_SLACK;
 pub use detail::{Detail, details};
 pub use footprint::{Footprint, Tap, footprint};

@@ -6,49 +6,59 @@ use crate::texture::AddressMode;
 use crate::texture::sample::share;
 
 /// The texels of one axis.
+#[derive(Clone, Debug)]
 pub(super) struct Axis<const N: usize> {
     /// The index of the one before the coordinate.
     near: [u32; N],
     /// The index of the one behind it.
     far: [u32; N],
-    /// The share of the latter.
-    f: [f32; N],
+    /// The former, not yet in the texture.
+    index: [f32; N],
     /// Whether each `far` follows its `near`.
     adjacent: bool,
 }
 
-/// How indices become texels.
+/// How coordinates become texels.
 #[derive(Clone, Copy)]
 pub(super) struct Addressing {
+    /// 0.5 for a linear filter, else 0.
+    pub(super) half: f32,
+    /// Whether shares have 8 bits.
+    pub(super) coarse: bool,
     pub(super) mode: AddressMode,
     /// Whether the axis has a power of two of texels in every level.
     pub(super) power_of_two: bool,
 }
 
-impl<const N: usize> Axis<N> {
-    /// Of coordinates on an axis of `n` texels; `half` is 0.5 for a linear filter, else 0. Marks what it cannot do as odd.
-    #[inline(always)]
-    pub(super) fn new(
-        u: &[f32; N],
-        n: &[f32; N],
-        half: f32,
-        addressing: Addressing,
-        coarse: bool,
-        odd: &mut [u32; N],
-    ) -> Self {
-        let mut axis = Self {
+impl<const N: usize> Default for Axis<N> {
+    fn default() -> Self {
+        Self {
             near: [0; N],
             far: [0; N],
-            f: [0.0; N],
-            adjacent: true,
-        };
-        let mut index = [0.0; N];
+            index: [0.0; N],
+            adjacent: false,
+        }
+    }
+}
+
+impl<const N: usize> Axis<N> {
+    /// Finds those of coordinates on an axis of `n` texels, and the shares of the far ones. Marks what it cannot do as odd.
+    #[inline(always)]
+    pub(super) fn find(
+        &mut self,
+        u: &[f32; N],
+        n: &[f32; N],
+        addressing: Addressing,
+        share_of_far: &mut [f32; N],
+        odd: &mut [u32; N],
+    ) {
+        let Addressing { half, coarse, .. } = addressing;
         let (mut beyond, mut outside) = (0, 0);
         for l in 0..N {
             let x = u[l] * n[l] - half;
             let i = floor(x);
-            index[l] = i;
-            axis.f[l] = x - i;
+            self.index[l] = i;
+            share_of_far[l] = x - i;
             // Also where it is not a number.
             beyond |= u32::from(x.abs() < FAR) ^ 1;
             outside |= u32::from(i < 0.0) | u32::from(i + 1.0 >= n[l]);
@@ -59,61 +69,56 @@ impl<const N: usize> Axis<N> {
             }
         }
         if half == 0.0 {
-            axis.f = [0.0; N];
+            *share_of_far = [0.0; N];
         } else if coarse {
-            for f in &mut axis.f {
+            for f in share_of_far {
                 *f = share::<true>(*f);
             }
         }
+        self.adjacent = true;
         if outside == 0 {
-            for (l, i) in index.iter().enumerate() {
-                axis.near[l] = int(*i);
-                axis.far[l] = axis.near[l].wrapping_add(1);
+            for (l, i) in self.index.iter().enumerate() {
+                self.near[l] = int(*i);
+                self.far[l] = self.near[l].wrapping_add(1);
             }
         } else {
-            axis.address(&index, n, addressing, odd);
+            self.address(n, addressing, odd);
             let mut apart = 0;
             for l in 0..N {
-                apart |= axis.far[l] ^ axis.near[l].wrapping_add(1);
+                apart |= self.far[l] ^ self.near[l].wrapping_add(1);
             }
-            axis.adjacent = apart == 0;
+            self.adjacent = apart == 0;
         }
-        axis
     }
 
     /// Takes indices into the texture.
     #[inline(always)]
-    fn address(
-        &mut self,
-        index: &[f32; N],
-        n: &[f32; N],
-        addressing: Addressing,
-        odd: &mut [u32; N],
-    ) {
+    fn address(&mut self, n: &[f32; N], addressing: Addressing, odd: &mut [u32; N]) {
         match addressing.mode {
             AddressMode::Wrap if addressing.power_of_two => {
-                for l in 0..N {
-                    let mask = int(n[l]).wrapping_sub(1);
-                    let near = low_bits(index[l]);
+                for (l, n) in n.iter().enumerate() {
+                    let mask = int(*n).wrapping_sub(1);
+                    let near = low_bits(self.index[l]);
                     self.near[l] = near & mask;
                     self.far[l] = near.wrapping_add(1) & mask;
                 }
             }
-            AddressMode::Wrap => self.each(index, n, remainder),
-            AddressMode::Mirror => self.each(index, n, |i, n| {
+            AddressMode::Wrap => self.each(n, remainder),
+            AddressMode::Mirror => self.each(n, |i, n| {
                 let k = remainder(i, 2.0 * n);
                 if k < n { k } else { 2.0 * n - 1.0 - k }
             }),
-            AddressMode::Clamp => self.each(index, n, |i, n| {
-                at_most(n - 1.0, if i < 0.0 { 0.0 } else { i })
-            }),
-            AddressMode::MirrorOnce => self.each(index, n, |i, n| {
+            AddressMode::Clamp => {
+                self.each(n, |i, n| at_most(n - 1.0, if i < 0.0 { 0.0 } else { i }))
+            }
+            AddressMode::MirrorOnce => self.each(n, |i, n| {
                 at_most(n - 1.0, if i < 0.0 { -1.0 - i } else { i })
             }),
             AddressMode::Border => {
-                self.each(index, n, |i, _| i);
+                self.each(n, |i, _| i);
                 for l in 0..N {
-                    let beyond = u32::from(index[l] < 0.0) | u32::from(index[l] + 1.0 >= n[l]);
+                    let beyond =
+                        u32::from(self.index[l] < 0.0) | u32::from(self.index[l] + 1.0 >= n[l]);
                     odd[l] |= beyond;
                 }
             }
@@ -121,10 +126,10 @@ impl<const N: usize> Axis<N> {
     }
 
     #[inline(always)]
-    fn each(&mut self, index: &[f32; N], n: &[f32; N], texel: impl Fn(f32, f32) -> f32) {
+    fn each(&mut self, n: &[f32; N], texel: impl Fn(f32, f32) -> f32) {
         for (l, n) in n.iter().enumerate() {
-            self.near[l] = int(texel(index[l], *n));
-            self.far[l] = int(texel(index[l] + 1.0, *n));
+            self.near[l] = int(texel(self.index[l], *n));
+            self.far[l] = int(texel(self.index[l] + 1.0, *n));
         }
     }
 }
@@ -171,7 +176,7 @@ impl<const N: usize> Default for Grid<N> {
 }
 
 impl<const N: usize> Grid<N> {
-    /// From both axes.
+    /// Joins both axes, whose shares are there.
     #[inline(always)]
     pub(super) fn join(
         &mut self,
@@ -193,7 +198,5 @@ impl<const N: usize> Grid<N> {
             lower_left[l] = lower.wrapping_add(across.near[l]);
             lower_right[l] = lower.wrapping_add(across.far[l]);
         }
-        self.x = across.f;
-        self.y = down.f;
     }
 }

@@ -3,6 +3,7 @@
 use crate::texture::cube::CUBE_FACES;
 
 /// Where directions meet the faces.
+#[derive(Clone, Debug)]
 pub(super) struct Met<const N: usize> {
     pub(super) face: [u32; N],
     /// In the face, 0 to 1.
@@ -10,19 +11,25 @@ pub(super) struct Met<const N: usize> {
     pub(super) v: [f32; N],
 }
 
+impl<const N: usize> Default for Met<N> {
+    fn default() -> Self {
+        Self {
+            face: [0; N],
+            u: [0.0; N],
+            v: [0.0; N],
+        }
+    }
+}
+
 /// As [`direction_to_face`](crate::texture::direction_to_face). Lanes without a direction are marked as odd, and if
 /// derivatives are wanted, which are those of one plane, so are lanes of quads that meet several faces.
 #[inline(always)]
-pub(super) fn met<const N: usize>(
+pub(super) fn find<const N: usize>(
+    met: &mut Met<N>,
     coords: [&[f32; N]; 3],
     odd: &mut [u32; N],
     derivatives: bool,
-) -> Met<N> {
-    let mut met = Met {
-        face: [0; N],
-        u: [0.0; N],
-        v: [0.0; N],
-    };
+) {
     let [x, y, z] = coords;
     for l in 0..N {
         let direction = [x[l], y[l], z[l]];
@@ -75,5 +82,4 @@ pub(super) fn met<const N: usize>(
             }
         }
     }
-    met
 }

@@ -8,6 +8,7 @@ use crate::texture::{Filter, MipFilter, Sampler, Texture, Weights};
 use glam::{Vec4, Vec4Swizzles};
 
 /// What [`Choice`](crate::texture::sample::Choice) says of one lane, of all.
+#[derive(Clone, Debug)]
 pub(super) struct Detailed<const N: usize> {
     /// 0.5 if the filter is linear, else 0.
     pub(super) half: f32,
@@ -16,6 +17,19 @@ pub(super) struct Detailed<const N: usize> {
     pub(super) second: [f32; N],
     /// The share of the second level.
     pub(super) blend: [f32; N],
+    lambda: [f32; N],
+}
+
+impl<const N: usize> Default for Detailed<N> {
+    fn default() -> Self {
+        Self {
+            half: 0.0,
+            first: [0.0; N],
+            second: [0.0; N],
+            blend: [0.0; N],
+            lambda: [0.0; N],
+        }
+    }
 }
 
 /// How far before a coordinate the middle of the first texel may lie.
@@ -26,32 +40,37 @@ fn half(filter: Filter) -> f32 {
 impl<const N: usize> Detailed<N> {
     /// Where λ makes no difference.
     #[inline(always)]
-    pub(super) fn fixed(sampler: &Sampler) -> Self {
-        Self {
-            half: half(sampler.mag),
-            first: [0.0; N],
-            second: [0.0; N],
-            blend: [0.0; N],
-        }
+    pub(super) fn fixed(&mut self, sampler: &Sampler) {
+        self.half = half(sampler.mag);
+        self.first = [0.0; N];
+        self.blend = [0.0; N];
     }
 
     /// From the coordinates of quads on one plane each. Lanes with several probes are marked as odd.
     #[inline(always)]
     pub(super) fn find(
+        &mut self,
         texture: &Texture,
         sampler: &Sampler,
         u: &[f32; N],
         v: &[f32; N],
         odd: &mut [u32; N],
-    ) -> Self {
+    ) {
         let size = texture.levels.first().map_or([1; 3], |level| level.size);
-        let mut detailed = Self::fixed(sampler);
-        let mut lambdas = squared_lengths(u, v, size.map(|edge| edge as f32));
-        for l in &mut lambdas {
+        self.half = half(sampler.mag);
+        let Self {
+            first,
+            second,
+            blend,
+            lambda: lambdas,
+            ..
+        } = self;
+        squared_lengths(u, v, [size[0] as f32, size[1] as f32], lambdas);
+        for l in &mut *lambdas {
             *l = lambda(*l, sampler.lod_bias);
         }
         if sampler.most_probes() > 1 {
-            for (odd, lambda) in odd.iter_mut().zip(&lambdas) {
+            for (odd, lambda) in odd.iter_mut().zip(&*lambdas) {
                 *odd |= u32::from(*lambda > 0.0);
             }
         }
@@ -59,12 +78,12 @@ impl<const N: usize> Detailed<N> {
         if minified != magnified {
             // A batch has one filter. Where it is magnified and minified, the lanes of the other one are odd.
             let mut any_minified = 0;
-            for lambda in &lambdas {
+            for lambda in &*lambdas {
                 any_minified |= u32::from(*lambda > 0.0);
             }
             if any_minified != 0 {
-                detailed.half = minified;
-                for (odd, lambda) in odd.iter_mut().zip(&lambdas) {
+                self.half = minified;
+                for (odd, lambda) in odd.iter_mut().zip(&*lambdas) {
                     *odd |= u32::from(*lambda > 0.0) ^ 1;
                 }
             }
@@ -73,38 +92,38 @@ impl<const N: usize> Detailed<N> {
         let largest = last.min(sampler.max_mip_level as usize) as f32;
         let last = last as f32;
         // NaN, which only a bias brings about, is the largest level.
-        let mut levels = lambdas;
-        for level in &mut levels {
+        for level in &mut *lambdas {
             *level = if *level > largest { *level } else { largest };
             *level = if *level > last { last } else { *level };
         }
+        let levels = lambdas;
         match sampler.mip {
-            MipFilter::None => {}
+            MipFilter::None => {
+                *first = [0.0; N];
+                *blend = [0.0; N];
+            }
             MipFilter::Point => {
-                for (first, level) in detailed.first.iter_mut().zip(&levels) {
+                for (first, level) in first.iter_mut().zip(levels) {
                     let nearest = floor(*level + 0.5);
                     *first = if nearest > last { last } else { nearest };
                 }
+                *blend = [0.0; N];
             }
             MipFilter::Linear => {
                 for (l, level) in levels.iter().enumerate() {
-                    let first = floor(*level);
-                    detailed.first[l] = first;
-                    detailed.second[l] = if first + 1.0 > last {
-                        last
-                    } else {
-                        first + 1.0
-                    };
-                    detailed.blend[l] = level - first;
+                    let whole = floor(*level);
+                    let next = whole + 1.0;
+                    first[l] = whole;
+                    second[l] = if next > last { last } else { next };
+                    blend[l] = level - whole;
                 }
                 if sampler.weights == Weights::EightBits {
-                    for blend in &mut detailed.blend {
+                    for blend in blend {
                         *blend = share::<true>(*blend);
                     }
                 }
             }
         }
-        detailed
     }
 
     /// Whether no lane has a linear filter.
@@ -132,8 +151,12 @@ fn any_bits<const N: usize>(lanes: &[f32; N]) -> bool {
 
 /// The square of the longer derivative of each lane, in texels of a level of a size.
 #[inline(always)]
-fn squared_lengths<const N: usize>(u: &[f32; N], v: &[f32; N], size: [f32; 3]) -> [f32; N] {
-    let mut squared = [0.0; N];
+fn squared_lengths<const N: usize>(
+    u: &[f32; N],
+    v: &[f32; N],
+    size: [f32; 2],
+    squared: &mut [f32; N],
+) {
     let quads = u.as_chunks::<4>().0.iter().zip(v.as_chunks::<4>().0);
     for (squared, (u, v)) in squared.as_chunks_mut::<4>().0.iter_mut().zip(quads) {
         let (u, v) = (Vec4::from(*u), Vec4::from(*v));
@@ -149,17 +172,17 @@ fn squared_lengths<const N: usize>(u: &[f32; N], v: &[f32; N], size: [f32; 3]) -
             };
         }
     }
-    squared
 }
 
 /// The squares of lengths in texels.
 #[inline(always)]
-fn length([u, v]: [Vec4; 2], size: [f32; 3]) -> [f32; 4] {
+fn length([u, v]: [Vec4; 2], size: [f32; 2]) -> [f32; 4] {
     let (u, v) = (u * size[0], v * size[1]);
     (u * u + v * v).to_array()
 }
 
 /// What is needed to know of the level of each lane.
+#[derive(Clone, Debug)]
 pub(super) struct LevelRows<const N: usize> {
     pub(super) width: [f32; N],
     pub(super) height: [f32; N],
@@ -169,16 +192,21 @@ pub(super) struct LevelRows<const N: usize> {
     pub(super) base: [u32; N],
 }
 
-impl<const N: usize> LevelRows<N> {
-    /// Of levels by their numbers.
-    #[inline(always)]
-    pub(super) fn new(levels: &[Level], number: &[f32; N], face: &[u32; N]) -> Self {
-        let mut rows = Self {
+impl<const N: usize> Default for LevelRows<N> {
+    fn default() -> Self {
+        Self {
             width: [0.0; N],
             height: [0.0; N],
             stride: [0; N],
             base: [0; N],
-        };
+        }
+    }
+}
+
+impl<const N: usize> LevelRows<N> {
+    /// Looks up levels by their numbers.
+    #[inline(always)]
+    pub(super) fn find(&mut self, levels: &[Level], number: &[f32; N], face: &[u32; N]) {
         let bits = number[0].to_bits();
         let mut different = 0;
         for number in number {
@@ -188,26 +216,25 @@ impl<const N: usize> LevelRows<N> {
         if different == 0 {
             if let Some(level) = levels.get(int(number[0]) as usize) {
                 let [width, height, _] = level.size;
-                rows.width = [width as f32; N];
-                rows.height = [height as f32; N];
-                rows.stride = [width; N];
+                self.width = [width as f32; N];
+                self.height = [height as f32; N];
+                self.stride = [width; N];
                 let (offset, face_len) = (level.offset as u32, level.face_len as u32);
-                for (base, face) in rows.base.iter_mut().zip(face) {
+                for (base, face) in self.base.iter_mut().zip(face) {
                     *base = offset.wrapping_add(face.wrapping_mul(face_len));
                 }
             }
-            return rows;
+            return;
         }
         for l in 0..N {
             if let Some(level) = levels.get(int(number[l]) as usize) {
                 let [width, height, _] = level.size;
-                rows.width[l] = width as f32;
-                rows.height[l] = height as f32;
-                rows.stride[l] = width;
+                self.width[l] = width as f32;
+                self.height[l] = height as f32;
+                self.stride[l] = width;
                 let start = face[l].wrapping_mul(level.face_len as u32);
-                rows.base[l] = (level.offset as u32).wrapping_add(start);
+                self.base[l] = (level.offset as u32).wrapping_add(start);
             }
         }
-        rows
     }
 }

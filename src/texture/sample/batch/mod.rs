@@ -19,7 +19,9 @@ use super::{Choice, Sampler, Texture, TextureKind, UNBOUND, sample_quad};
 use crate::simd::{Simd, Task};
 use crate::texture::{AddressMode, Weights};
 use axis::{Addressing, Axis, Grid};
+use faces::Met;
 use levels::{Detailed, LevelRows};
+use texels::Read;
 
 /// Texel coordinates up to here, exclusive, keep their halves: what [`floor`] and [`int`] can do.
 const FAR: f32 = 4_194_304.0;
@@ -94,94 +96,98 @@ pub fn share_places(a: (&Texture, &Sampler), b: (&Texture, &Sampler)) -> bool {
     a.0.kind == b.0.kind && a.0.levels == b.0.levels && *a.1 == sampler
 }
 
+/// What samples need while they are taken, used by one after the other.
+#[derive(Clone, Debug)]
+pub struct Memory<const N: usize> {
+    met: Met<N>,
+    detailed: Detailed<N>,
+    rows: LevelRows<N>,
+    across: Axis<N>,
+    down: Axis<N>,
+    read: Read<N>,
+}
+
+impl<const N: usize> Default for Memory<N> {
+    fn default() -> Self {
+        Self {
+            met: Met::default(),
+            detailed: Detailed::default(),
+            rows: LevelRows::default(),
+            across: Axis::default(),
+            down: Axis::default(),
+            read: Read::default(),
+        }
+    }
+}
+
 impl<const N: usize> Places<N> {
     #[inline(always)]
-    fn find(&mut self, texture: &Texture, sampler: &Sampler, coords: [&[f32; N]; 3]) {
-        self.odd = [0; N];
-        let fixed = Choice::is_fixed(texture, sampler);
-        let [u, v, _] = coords;
-        match texture.kind {
-            TextureKind::Texture2D => {
-                let [along_u, along_v, _] = sampler.address;
-                let modes = [along_u, along_v];
-                self.find_flat(texture, sampler, fixed, u, v, &[0; N], modes);
-            }
-            TextureKind::Cube => {
-                let met = faces::met(coords, &mut self.odd, !fixed);
-                // A texel beyond an edge is one of another face, which is for the other way to find.
-                let mode = match sampler.seamless {
-                    true => AddressMode::Border,
-                    false => AddressMode::Clamp,
-                };
-                self.find_flat(
-                    texture, sampler, fixed, &met.u, &met.v, &met.face, [mode; 2],
-                );
-            }
-            TextureKind::Volume => self.odd = [1; N],
-        }
-        self.any_odd = any_lane(&self.odd);
-    }
-
-    #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "rows, and what is asked of them")]
-    fn find_flat(
+    fn find(
         &mut self,
+        memory: &mut Memory<N>,
         texture: &Texture,
         sampler: &Sampler,
-        fixed: bool,
-        u: &[f32; N],
-        v: &[f32; N],
-        face: &[u32; N],
-        modes: [AddressMode; 2],
+        coords: [&[f32; N]; 3],
     ) {
-        let detailed = match fixed {
-            true => Detailed::fixed(sampler),
-            false => Detailed::find(texture, sampler, u, v, &mut self.odd),
+        self.odd = [0; N];
+        let fixed = Choice::is_fixed(texture, sampler);
+        let Memory {
+            met,
+            detailed,
+            rows,
+            across,
+            down,
+            ..
+        } = memory;
+        let ([mut u, mut v, _], mut modes) = (coords, [AddressMode::Clamp; 2]);
+        match texture.kind {
+            TextureKind::Texture2D => {
+                met.face = [0; N];
+                modes = [sampler.address[0], sampler.address[1]];
+            }
+            TextureKind::Cube => {
+                faces::find(met, coords, &mut self.odd, !fixed);
+                (u, v) = (&met.u, &met.v);
+                if sampler.seamless {
+                    // A texel beyond an edge is one of another face, which is for the other way to find.
+                    modes = [AddressMode::Border; 2];
+                }
+            }
+            TextureKind::Volume => {
+                self.odd = [1; N];
+                self.any_odd = true;
+                return;
+            }
+        }
+        match fixed {
+            true => detailed.fixed(sampler),
+            false => detailed.find(texture, sampler, u, v, &mut self.odd),
+        }
+        let size = texture.size();
+        let addressing = |axis: usize| Addressing {
+            half: detailed.half,
+            coarse: sampler.weights == Weights::EightBits,
+            mode: modes[axis],
+            power_of_two: size[axis].is_power_of_two(),
         };
-        let coarse = sampler.weights == Weights::EightBits;
-        let flat = Flat {
-            texture,
-            detailed: &detailed,
-            u,
-            v,
-            face,
-            modes,
-            coarse,
-        };
-        flat.grid(&detailed.first, &mut self.odd, &mut self.first);
+        let addressing = [addressing(0), addressing(1)];
         self.blended = detailed.is_blended();
+        let grids = [
+            (&detailed.first, &mut self.first),
+            (&detailed.second, &mut self.second),
+        ];
+        let count = if self.blended { 2 } else { 1 };
+        for (level, grid) in grids.into_iter().take(count) {
+            rows.find(&texture.levels, level, &met.face);
+            let [along_u, along_v] = addressing;
+            across.find(u, &rows.width, along_u, &mut grid.x, &mut self.odd);
+            down.find(v, &rows.height, along_v, &mut grid.y, &mut self.odd);
+            grid.join(rows, across, down, detailed.is_point());
+        }
         if self.blended {
-            flat.grid(&detailed.second, &mut self.odd, &mut self.second);
             self.blend = detailed.blend;
         }
-    }
-}
-
-/// Coordinates in planes, and how they are read.
-struct Flat<'a, const N: usize> {
-    texture: &'a Texture,
-    detailed: &'a Detailed<N>,
-    u: &'a [f32; N],
-    v: &'a [f32; N],
-    face: &'a [u32; N],
-    modes: [AddressMode; 2],
-    coarse: bool,
-}
-
-impl<const N: usize> Flat<'_, N> {
-    /// The texels in levels by their numbers.
-    #[inline(always)]
-    fn grid(&self, level: &[f32; N], odd: &mut [u32; N], grid: &mut Grid<N>) {
-        let rows = LevelRows::new(&self.texture.levels, level, self.face);
-        let size = self.texture.size();
-        let [along_u, along_v] = [0, 1].map(|axis| Addressing {
-            mode: self.modes[axis],
-            power_of_two: size[axis].is_power_of_two(),
-        });
-        let (half, coarse) = (self.detailed.half, self.coarse);
-        let across = Axis::new(self.u, &rows.width, half, along_u, coarse, odd);
-        let down = Axis::new(self.v, &rows.height, half, along_v, coarse, odd);
-        grid.join(&rows, &across, &down, self.detailed.is_point());
+        self.any_odd = any_lane(&self.odd);
     }
 }
 
@@ -197,6 +203,8 @@ pub struct Sample<'a, const N: usize> {
     pub lanes: usize,
     /// Where the lanes are, or memory for it.
     pub places: &'a mut Places<N>,
+    /// Memory for everything else.
+    pub memory: &'a mut Memory<N>,
     /// Whether the places have been found already, by a sample at the same coordinates of which [`share_places`] holds.
     pub found: bool,
     /// The channels that are wanted; the others are left as they are.
@@ -217,16 +225,17 @@ impl<const N: usize> Task for Sample<'_, N> {
             ..
         } = self;
         if !self.found {
-            self.places.find(texture, sampler, coords);
+            self.places.find(self.memory, texture, sampler, coords);
         }
         let places = &*self.places;
+        let read = &mut self.memory.read;
         if texture.kind != TextureKind::Volume {
             match &texture.texels {
                 Texels::Packed(words) => {
-                    texels::read(words.as_slice(), places, self.channels, self.out)
+                    texels::read(words.as_slice(), places, read, self.channels, self.out)
                 }
                 Texels::Float(texels) => {
-                    texels::read(texels.as_slice(), places, self.channels, self.out)
+                    texels::read(texels.as_slice(), places, read, self.channels, self.out)
                 }
             }
         }
@@ -289,6 +298,7 @@ pub fn sample_quads<const N: usize>(
             coords: coords.each_ref(),
             lanes: alone,
             places: &mut Places::default(),
+            memory: &mut Memory::default(),
             found: false,
             channels: [true; 4],
             out,

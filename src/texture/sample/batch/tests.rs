@@ -154,6 +154,7 @@ proptest! {
         // NaN equals nothing, so that such a bias is shared with nobody.
         prop_assert_eq!(share_places((&first, &sampler), (&second, &other)), !sampler.lod_bias.is_nan());
         let mut places = Places::default();
+        let mut memory = Memory::default();
         for (texture, sampler, found) in [(&first, &sampler, false), (&second, &other, true)] {
             let mut out = [[7.0; N]; 4];
             simd.run(Sample {
@@ -162,6 +163,7 @@ proptest! {
                 coords: coords.each_ref(),
                 lanes: N,
                 places: &mut places,
+                memory: &mut memory,
                 found,
                 channels: [true; 4],
                 out: &mut out,

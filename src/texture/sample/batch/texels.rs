@@ -10,7 +10,26 @@ pub(super) trait Source<const N: usize>: Copy {
     type Corners: Corners<N>;
 
     /// Reads the texels of all lanes. What lies outside of the texture reads as anything.
-    fn corners(self, grid: &Grid<N>) -> Self::Corners;
+    fn corners<'r>(self, grid: &Grid<N>, read: &'r mut Read<N>) -> &'r Self::Corners;
+}
+
+/// Memory for the texels of a level.
+#[derive(Clone, Debug)]
+pub(super) struct Read<const N: usize> {
+    /// The upper and the lower ones, two by two.
+    pairs: [[u64; N]; 2],
+    packed: PackedCorners<N>,
+    floats: FloatCorners<N>,
+}
+
+impl<const N: usize> Default for Read<N> {
+    fn default() -> Self {
+        Self {
+            pairs: [[0; N]; 2],
+            packed: PackedCorners([[0; N]; 4]),
+            floats: FloatCorners([[[0.0; N]; 4]; 4]),
+        }
+    }
 }
 
 /// The four texels of each lane.
@@ -25,6 +44,7 @@ pub(super) trait Corners<const N: usize> {
 }
 
 /// Words, corner by corner.
+#[derive(Clone, Debug)]
 pub(super) struct PackedCorners<const N: usize>([[u32; N]; 4]);
 
 impl<const N: usize> Corners<N> for PackedCorners<N> {
@@ -70,9 +90,9 @@ impl<const N: usize> Source<N> for &[u32] {
     type Corners = PackedCorners<N>;
 
     #[inline(always)]
-    fn corners(self, grid: &Grid<N>) -> PackedCorners<N> {
+    fn corners<'r>(self, grid: &Grid<N>, read: &'r mut Read<N>) -> &'r PackedCorners<N> {
         let [upper_left, upper_right, lower_left, lower_right] = &grid.corners;
-        let (mut upper, mut lower) = ([0; N], [0; N]);
+        let [upper, lower] = &mut read.pairs;
         if grid.point {
             for l in 0..N {
                 upper[l] = word(self, upper_left[l]);
@@ -88,15 +108,15 @@ impl<const N: usize> Source<N> for &[u32] {
                 lower[l] = word(self, lower_left[l]) | word(self, lower_right[l]) << 32;
             }
         }
-        let mut corners = [[0; N]; 4];
-        let [upper_left, upper_right, lower_left, lower_right] = &mut corners;
-        split(&upper, upper_left, upper_right);
-        split(&lower, lower_left, lower_right);
-        PackedCorners(corners)
+        let [upper_left, upper_right, lower_left, lower_right] = &mut read.packed.0;
+        split(upper, upper_left, upper_right);
+        split(lower, lower_left, lower_right);
+        &read.packed
     }
 }
 
 /// Floats, corner by corner, channel by channel.
+#[derive(Clone, Debug)]
 pub(super) struct FloatCorners<const N: usize>([[[f32; N]; 4]; 4]);
 
 impl<const N: usize> Corners<N> for FloatCorners<N> {
@@ -113,8 +133,8 @@ impl<const N: usize> Source<N> for &[[f32; 4]] {
     type Corners = FloatCorners<N>;
 
     #[inline(always)]
-    fn corners(self, grid: &Grid<N>) -> FloatCorners<N> {
-        let mut corners = [[[0.0; N]; 4]; 4];
+    fn corners<'r>(self, grid: &Grid<N>, read: &'r mut Read<N>) -> &'r FloatCorners<N> {
+        let corners = &mut read.floats.0;
         let count = if grid.point { 1 } else { 4 };
         for (corner, places) in corners.iter_mut().zip(&grid.corners).take(count) {
             for (l, place) in places.iter().enumerate() {
@@ -124,7 +144,7 @@ impl<const N: usize> Source<N> for &[[f32; 4]] {
                 }
             }
         }
-        FloatCorners(corners)
+        &read.floats
     }
 }
 
@@ -179,17 +199,18 @@ fn level<const N: usize, C: Corners<N>>(
 pub(super) fn read<const N: usize, S: Source<N>>(
     texels: S,
     places: &Places<N>,
+    memory: &mut Read<N>,
     channels: [bool; 4],
     out: &mut [[f32; N]; 4],
 ) {
     let wanted = |channel: &usize| channels[*channel];
-    let corners = texels.corners(&places.first);
+    let corners = texels.corners(&places.first, memory);
     for channel in (0..4).filter(wanted) {
         let out = &mut out[channel];
         if places.blended {
-            level(&corners, &places.first, channel, |l, value| out[l] = value);
+            level(corners, &places.first, channel, |l, value| out[l] = value);
         } else {
-            level(&corners, &places.first, channel, |l, value| {
+            level(corners, &places.first, channel, |l, value| {
                 out[l] = value / S::Corners::SCALE
             });
         }
@@ -197,10 +218,10 @@ pub(super) fn read<const N: usize, S: Source<N>>(
     if !places.blended {
         return;
     }
-    let corners = texels.corners(&places.second);
+    let corners = texels.corners(&places.second, memory);
     for channel in (0..4).filter(wanted) {
         let out = &mut out[channel];
-        level(&corners, &places.second, channel, |l, second| {
+        level(corners, &places.second, channel, |l, second| {
             let (first, blend) = (out[l], places.blend[l]);
             let value = first + blend * (second - first);
             let value = if !S::Corners::FINITE && blend == 0.0 {
