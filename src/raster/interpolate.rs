@@ -19,6 +19,16 @@ pub(super) fn depths(quantities: &Quantities) -> [f32; 4] {
     quantities[Planes::Z].map(unit)
 }
 
+/// The depths of a block, each in 0 to 1.
+#[inline(always)]
+pub(super) fn block_depths(planes: &Planes, x: i32, y: i32) -> [f32; LANES] {
+    let mut depths = planes.block(Planes::Z, x, y);
+    for depth in &mut depths {
+        *depth = unit(*depth);
+    }
+    depths
+}
+
 /// What of the inputs is to be computed, and how.
 pub(super) struct Interpolator<'a> {
     shade: ShadeMode,
@@ -74,13 +84,30 @@ impl Shares {
         for (share, which) in self.of.iter_mut().zip(Planes::SHARES) {
             share.as_chunks_mut().0[quad] = quantities[which];
         }
-        self.inverse_w.as_chunks_mut().0[quad] = planes.inverse_w(quantities);
+        let inverse_w = &quantities[Planes::INVERSE_W];
+        self.inverse_w.as_chunks_mut::<4>().0[quad] =
+            std::array::from_fn(|i| planes.divisor(inverse_w[i]));
         self.w_scale.as_chunks_mut().0[quad] = [planes.w_scale; 4];
         if !self.open {
             self.runs[self.count] = (quad, self.owner);
             self.count += 1;
             self.open = true;
         }
+    }
+
+    /// Puts the quads of a block in their places, which must be free.
+    #[inline(always)]
+    pub(super) fn place_block(&mut self, owner: Owner, planes: &Planes, x: i32, y: i32) {
+        for (share, which) in self.of.iter_mut().zip(Planes::SHARES) {
+            *share = planes.block(which, x, y);
+        }
+        let inverse_w = planes.block(Planes::INVERSE_W, x, y);
+        for (divisor, inverse_w) in self.inverse_w.iter_mut().zip(inverse_w) {
+            *divisor = planes.divisor(inverse_w);
+        }
+        self.w_scale = [planes.w_scale; LANES];
+        self.runs[0] = (0, owner);
+        self.count = 1;
     }
 
     /// The shares at the pixels of a quad, once the batch is filled.

@@ -1,7 +1,9 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
-use super::pixel::{Attribute, PixelBatch, PixelResult};
-use super::plain::{depth_alone, depths_pass, is_plain, put_plain, quad_in_tile};
+use super::pixel::{Attribute, LANES, PixelBatch, PixelResult, lanes};
+use super::plain::{
+    bits, depth_alone, depth_alone_block, depth_only, is_plain, number_in_tile, put_plain,
+};
 use super::record::{
     AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, FogSource, Fogged, Nobody,
     StencilTested, Watcher,
@@ -10,7 +12,7 @@ use super::state::{
     BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, FogState, RenderState,
     StencilOp, StencilState,
 };
-use super::target::{ColorFormat, Tile};
+use super::target::{ColorFormat, IN_BLOCK, Tile};
 use super::{fog_unit, unit};
 
 /// Red, green, blue and alpha of the four pixels of a quad.
@@ -60,7 +62,7 @@ impl DepthTiming {
 /// The places of the four pixels of a quad in its tile.
 #[inline(always)]
 fn tile_pixels(x: i32, y: i32) -> [usize; 4] {
-    let at = 4 * quad_in_tile(x, y);
+    let at = 4 * number_in_tile::<4>(x, y);
     [at, at + 1, at + 2, at + 3]
 }
 
@@ -120,21 +122,27 @@ pub(super) fn depth_stencil(
     passed
 }
 
-/// Which of the pixels in `mask` pass the depth test as things stand. Writes nothing.
+/// The same of a block, nobody watching.
 #[inline(always)]
-pub(super) fn depth_only(
-    tile: &Tile,
+pub(super) fn depth_stencil_block(
+    tile: &mut Tile,
     state: &RenderState,
-    x: i32,
-    y: i32,
-    z: &[f32; 4],
-    mask: u8,
-) -> u8 {
-    if !state.depth.enable {
-        return mask;
+    (x, y): (i32, i32),
+    z: &[f32; LANES],
+) -> [bool; LANES] {
+    if !state.stencil.enable {
+        return match state.depth.enable {
+            true => depth_alone_block(tile, state, (x, y), z),
+            false => [true; LANES],
+        };
     }
-    let stored = tile.depth.as_chunks().0.get(quad_in_tile(x, y));
-    stored.map_or(0, |stored| depths_pass(state.depth.func, z, stored)) & mask
+    let mut passed = [false; LANES];
+    let quads = passed.as_chunks_mut().0.iter_mut().zip(z.as_chunks().0);
+    for (quad, (passed, z)) in quads.enumerate() {
+        let at = (x + IN_BLOCK[0][4 * quad], y + IN_BLOCK[1][4 * quad]);
+        *passed = lanes(depth_stencil(tile, state, at, z, 0xf, &mut Nobody));
+    }
+    passed
 }
 
 /// The stencil test of the pixel in `mask`, with what it does to the stored value. Returns whether it is passed.
@@ -210,7 +218,7 @@ pub(super) fn merge(
         });
         let live = |killed: bool| {
             let is = |i: usize| batch.live[lane + i] && shaded.killed[lane + i] == killed;
-            (0..4).fold(0, |mask, i| mask | u8::from(is(i)) << i)
+            bits(&std::array::from_fn(is))
         };
         let mut mask = live(false);
         if !shaded.shows_killed.is_empty() {
@@ -222,7 +230,7 @@ pub(super) fn merge(
         if state.alpha_test.enable {
             let test = &state.alpha_test;
             let passes = |i: usize| test.func.passes(to_byte(color[3][i]), test.reference);
-            let passed: u8 = (0..4).fold(0, |kept, i| kept | u8::from(passes(i)) << i);
+            let passed: u8 = bits(&std::array::from_fn(passes));
             watcher.note(mask, |record, i| {
                 record.alpha_test = Some(AlphaTested {
                     alpha: to_byte(color[3][i]),
@@ -348,7 +356,7 @@ fn show_killed(
     let (x, y) = (batch.x[lane], batch.y[lane]);
     let z = late_depths(timing, batch, shaded, lane);
     let pixels = tile_pixels(x, y);
-    let mut seen = depth_only(tile, state, x, y, &z, killed);
+    let mut seen = bits(&depth_only(tile, state, (x, y), &z)) & killed;
     if state.stencil.enable {
         let stencil = &state.stencil;
         let reference = stencil.reference & stencil.mask;

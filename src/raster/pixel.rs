@@ -1,5 +1,6 @@
 //! What pixel shaders are given and what they give back.
 
+use super::target::IN_BLOCK;
 use crate::isa::WriteMask;
 
 /// Pixels that are shaded together. A multiple of 4: lanes 4q to 4q+3 are the quad (x, y), (x+1, y), (x, y+1),
@@ -40,6 +41,8 @@ pub struct PixelBatch {
     pub live: [bool; LANES],
     /// How many quads there are, 1 to `LANES / 4`.
     pub quads: usize,
+    /// Whether they are those of a block of a tile, in its order.
+    pub(super) block: bool,
 }
 
 impl PixelBatch {
@@ -47,6 +50,7 @@ impl PixelBatch {
     pub fn empty() -> Self {
         Self {
             quads: 0,
+            block: false,
             x: [0; LANES],
             y: [0; LANES],
             live: [false; LANES],
@@ -67,6 +71,19 @@ impl PixelBatch {
         self.y.as_chunks_mut().0[quad] = [y, y, y + 1, y + 1];
         self.live.as_chunks_mut().0[quad] = lanes(live);
         self.z.as_chunks_mut().0[quad] = *z;
+    }
+
+    /// Makes it a batch of a block: the position of its first pixel, which of its pixels are live, their depths.
+    #[inline(always)]
+    pub(super) fn place_block(&mut self, x: i32, y: i32, live: [bool; LANES], z: &[f32; LANES]) {
+        for lane in 0..LANES {
+            self.x[lane] = x + IN_BLOCK[0][lane];
+            self.y[lane] = y + IN_BLOCK[1][lane];
+        }
+        self.live = live;
+        self.z = *z;
+        self.quads = QUADS;
+        self.block = true;
     }
 }
 

@@ -6,34 +6,46 @@ use super::state::{Compare, RenderState};
 use super::target::{ColorFormat, Tile, place_in_tile};
 use super::unit;
 
-/// The number of a quad in its tile.
+/// The number of what begins at a pixel in its tile: of a quad for `N` = 4, of a block for `N` = 64.
 #[inline(always)]
-pub(super) fn quad_in_tile(x: i32, y: i32) -> usize {
+pub(super) fn number_in_tile<const N: usize>(x: i32, y: i32) -> usize {
     // Coordinates of quads are never negative, being within the scissor.
-    place_in_tile(x as u32, y as u32) / 4
+    place_in_tile(x as u32, y as u32) / N
 }
 
 /// Bit i for each of four that holds.
 #[inline(always)]
-fn bits(holds: [bool; 4]) -> u8 {
+pub(super) fn bits(holds: &[bool; 4]) -> u8 {
     (0..4).fold(0, |mask, i| mask | u8::from(holds[i]) << i)
 }
 
-/// Which of four depths pass the test.
+/// Which pixels of a quad, or of a block, pass a test.
 #[inline(always)]
-pub(super) fn depths_pass(func: Compare, new: &[f32; 4], stored: &[f32; 4]) -> u8 {
-    // The function is asked once for all four.
-    let each =
-        |passes: fn(&f32, &f32) -> bool| bits(std::array::from_fn(|i| passes(&new[i], &stored[i])));
+fn each<const N: usize>(
+    new: &[f32; N],
+    stored: &[f32; N],
+    passes: impl Fn(f32, f32) -> bool,
+) -> [bool; N] {
+    let mut passed = [false; N];
+    for ((passed, new), stored) in passed.iter_mut().zip(new).zip(stored) {
+        *passed = passes(*new, *stored);
+    }
+    passed
+}
+
+/// Which depths of a quad, or of a block, pass the test.
+#[inline(always)]
+fn depths_pass<const N: usize>(func: Compare, new: &[f32; N], stored: &[f32; N]) -> [bool; N] {
+    // The function is asked once for all of them.
     match func {
-        Compare::Never => 0,
-        Compare::Less => each(f32::lt),
-        Compare::Equal => each(|a, b| a == b),
-        Compare::LessEqual => each(f32::le),
-        Compare::Greater => each(f32::gt),
-        Compare::NotEqual => each(|a, b| a != b),
-        Compare::GreaterEqual => each(f32::ge),
-        Compare::Always => 0xf,
+        Compare::Never => [false; N],
+        Compare::Less => each(new, stored, |a, b| a < b),
+        Compare::Equal => each(new, stored, |a, b| a == b),
+        Compare::LessEqual => each(new, stored, |a, b| a <= b),
+        Compare::Greater => each(new, stored, |a, b| a > b),
+        Compare::NotEqual => each(new, stored, |a, b| a != b),
+        Compare::GreaterEqual => each(new, stored, |a, b| a >= b),
+        Compare::Always => [true; N],
     }
 }
 
@@ -67,15 +79,54 @@ pub(super) fn depth_alone(
     z: &[f32; 4],
     mask: u8,
 ) -> u8 {
-    let Some(stored) = tile.depth.as_chunks_mut().0.get_mut(quad_in_tile(x, y)) else {
+    let stored = (tile.depth.as_chunks_mut().0).get_mut(number_in_tile::<4>(x, y));
+    let Some(stored) = stored else {
         return 0;
     };
-    let passed = depths_pass(state.depth.func, z, stored) & mask;
+    let passed = bits(&depths_pass(state.depth.func, z, stored)) & mask;
     if state.depth.write {
         let (new, old) = (z.map(f32::to_bits), stored.map(f32::to_bits));
         *stored = replaced(passed, &new, &old).map(f32::from_bits);
     }
     passed
+}
+
+/// The same of a block.
+#[inline(always)]
+pub(super) fn depth_alone_block(
+    tile: &mut Tile,
+    state: &RenderState,
+    (x, y): (i32, i32),
+    z: &[f32; LANES],
+) -> [bool; LANES] {
+    let stored = (tile.depth.as_chunks_mut().0).get_mut(number_in_tile::<LANES>(x, y));
+    let Some(stored) = stored else {
+        return [false; LANES];
+    };
+    let passed = depths_pass(state.depth.func, z, stored);
+    if state.depth.write {
+        for ((stored, new), passed) in stored.iter_mut().zip(z).zip(passed) {
+            *stored = if passed { *new } else { *stored };
+        }
+    }
+    passed
+}
+
+/// Which of the pixels of a quad, or of a block, pass the depth test as things stand. Writes nothing.
+#[inline(always)]
+pub(super) fn depth_only<const N: usize>(
+    tile: &Tile,
+    state: &RenderState,
+    (x, y): (i32, i32),
+    z: &[f32; N],
+) -> [bool; N] {
+    if !state.depth.enable {
+        return [true; N];
+    }
+    let stored = tile.depth.as_chunks().0.get(number_in_tile::<N>(x, y));
+    stored.map_or([false; N], |stored| {
+        depths_pass(state.depth.func, z, stored)
+    })
 }
 
 /// Whether colours go into the target as they are: nothing takes a pixel out behind the shader, nothing changes its colour,
@@ -107,6 +158,16 @@ pub(super) fn put_plain(tile: &mut Tile, batch: &PixelBatch, shaded: &PixelResul
         let byte = |channel: &[f32; LANES]| u32::from(to_byte(unit(channel[lane])));
         *pixel = byte(r) | byte(g) << 8 | byte(b) << 16 | byte(a) << 24;
     }
+    if batch.block
+        && batch.live == [true; LANES]
+        && let at = number_in_tile::<LANES>(batch.x[0], batch.y[0])
+        && let Some(stored) = tile.color.as_chunks_mut::<LANES>().0.get_mut(at)
+    {
+        for (stored, pixel) in stored.iter_mut().zip(pixels) {
+            *stored = pixel.to_le_bytes();
+        }
+        return LANES as u64;
+    }
     let mut written = 0;
     let quads = pixels
         .as_chunks::<4>()
@@ -114,12 +175,12 @@ pub(super) fn put_plain(tile: &mut Tile, batch: &PixelBatch, shaded: &PixelResul
         .iter()
         .zip(batch.live.as_chunks::<4>().0);
     for (quad, (colors, live)) in quads.enumerate().take(batch.quads) {
-        let at = quad_in_tile(batch.x[4 * quad], batch.y[4 * quad]);
+        let at = number_in_tile::<4>(batch.x[4 * quad], batch.y[4 * quad]);
         let Some(stored) = tile.color.as_chunks_mut::<4>().0.get_mut(at) else {
             continue;
         };
         // Inside of a shape, where nearly all quads are, nothing is read.
-        let (live, mut new) = (bits(*live), *colors);
+        let (live, mut new) = (bits(live), *colors);
         if live != 0xf {
             new = replaced(live, colors, &stored.map(u32::from_le_bytes));
         }

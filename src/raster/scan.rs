@@ -2,9 +2,10 @@
 
 use super::points_lines::Line;
 use super::setup::{Corner, SUBPIXELS};
+use super::target;
 
 /// The side of the blocks that are taken or left as a whole.
-const BLOCK: i32 = 8;
+const BLOCK: i32 = target::BLOCK as i32;
 
 const SUBPIXEL_BITS: u32 = SUBPIXELS.trailing_zeros();
 
@@ -122,6 +123,27 @@ impl Edge {
     }
 }
 
+/// What [`Shape::scan`] finds. No pixel is in it twice.
+#[derive(Default)]
+pub(super) struct Covered {
+    /// The first pixels of blocks that are covered as a whole.
+    pub(super) blocks: Vec<(i32, i32)>,
+    /// The first pixels of quads, and which of the four are covered: bit 0 upper left, 1 upper right, 2 lower left, 3 lower
+    /// right. Of areas each comes once.
+    pub(super) quads: Vec<(i32, i32, u8)>,
+}
+
+impl Covered {
+    pub(super) fn clear(&mut self) {
+        self.blocks.clear();
+        self.quads.clear();
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.blocks.is_empty() && self.quads.is_empty()
+    }
+}
+
 /// What is covered within the bounds of a set-up.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Shape {
@@ -152,16 +174,11 @@ impl Shape {
         }
     }
 
-    /// Calls `quad` with the position and the mask (bit 0 upper left, 1 upper right, 2 lower left, 3 lower right) of every
-    /// quad of which something within `bounds` is covered, each once for areas. These are what the bounds of the shape have
-    /// in common with a rectangle of whole quads; the scissor has already cut them.
+    /// Adds everything within `bounds` that is covered. These are what the bounds of the shape have in common with a rectangle
+    /// of whole quads; the scissor has already cut them.
     #[inline(always)]
-    pub(super) fn scan(
-        &self,
-        bounds: &Bounds,
-        scissor: &Bounds,
-        mut quad: impl FnMut(i32, i32, u8),
-    ) {
+    pub(super) fn scan(&self, bounds: &Bounds, scissor: &Bounds, found: &mut Covered) {
+        let mut quad = |x, y, mask| found.quads.push((x, y, mask));
         match self {
             Self::Rectangle => {
                 for y in (bounds.y0 & !1..bounds.y1).step_by(2) {
@@ -170,7 +187,7 @@ impl Shape {
                     }
                 }
             }
-            Self::Triangle(edges) => scan_triangle(edges, bounds, scissor, quad),
+            Self::Triangle(edges) => scan_triangle(edges, bounds, scissor, found),
             Self::Line(line) => line.scan(bounds, quad),
         }
     }
@@ -178,12 +195,9 @@ impl Shape {
 
 /// As [`Shape::scan`].
 #[inline(always)]
-pub(super) fn scan_triangle(
-    edges: &[Edge; 3],
-    bounds: &Bounds,
-    scissor: &Bounds,
-    mut quad: impl FnMut(i32, i32, u8),
-) {
+fn scan_triangle(edges: &[Edge; 3], bounds: &Bounds, scissor: &Bounds, found: &mut Covered) {
+    let Covered { blocks, quads } = found;
+    let mut quad = |x, y, mask| quads.push((x, y, mask));
     let area = bounds.in_quads();
     if area.x1 - area.x0 <= BLOCK && area.y1 - area.y0 <= BLOCK {
         // Looking at the few quads is cheaper than looking whether one has to.
@@ -201,9 +215,7 @@ pub(super) fn scan_triangle(
             };
             let covered = edges.each_ref().map(|edge| edge.square(x, y, BLOCK));
             if covered == [Some(true); 3] && block.within(scissor) && block.within(&area) {
-                for (x, y) in quads_of_block(x, y) {
-                    quad(x, y, 0xf);
-                }
+                blocks.push((x, y));
             } else if !covered.contains(&None)
                 && let Some(part) = block.intersect(&area)
             {
@@ -213,13 +225,6 @@ pub(super) fn scan_triangle(
         }
         y += BLOCK;
     }
-}
-
-/// The positions of the quads of a block, row by row.
-#[inline(always)]
-fn quads_of_block(x0: i32, y0: i32) -> impl Iterator<Item = (i32, i32)> {
-    const SIDE: i32 = BLOCK / 2;
-    (0..SIDE * SIDE).map(move |i| (x0 + i % SIDE * 2, y0 + i / SIDE * 2))
 }
 
 /// The quads of an area of whole ones.

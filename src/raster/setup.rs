@@ -5,10 +5,12 @@
 
 use super::clip::{ClipVertex, Clipper, SHARES};
 use super::cover::ScreenPosition;
+use super::pixel::{LANES, QUADS};
 use super::points_lines;
 use super::scan::{Bounds, Edge, Shape};
 use super::screen::{Projection, Spot};
 use super::state::{CullMode, DEPTH_BIAS_STEP, FillMode, Viewport};
+use super::target::IN_BLOCK;
 use super::{DrawCall, DrawError, Topology};
 
 /// Subpixels of a pixel.
@@ -140,18 +142,42 @@ impl Planes {
 
     #[inline(always)]
     pub(super) fn quad(&self, x: i32, y: i32) -> Quantities {
-        let (x, y) = (f64::from(x), f64::from(y));
-        let Linear { at, dx, dy } = &self.linear;
-        // The first pixel in double precision: from the screen's origin a float would lose what a small triangle needs.
-        let at: [f32; 4] = std::array::from_fn(|i| (at[i] + dx[i] * x + dy[i] * y) as f32);
-        std::array::from_fn(|i| self.steps[i].map(|step| at[i] + step))
+        let first: [f32; 4] = std::array::from_fn(|i| self.first(i, x, y));
+        std::array::from_fn(|i| self.steps[i].map(|step| first[i] + step))
     }
 
-    /// [`Self::INVERSE_W`] at the four pixels of a quad, as it is divided by.
+    /// One quantity at the pixels of a block, quad by quad as [`Self::quad`] has it.
     #[inline(always)]
-    pub(super) fn inverse_w(&self, quantities: &Quantities) -> [f32; 4] {
+    pub(super) fn block(&self, which: usize, x: i32, y: i32) -> [f32; LANES] {
+        let mut first = [0.0; QUADS];
+        for (quad, first) in first.iter_mut().enumerate() {
+            let [right, down] = [IN_BLOCK[0][4 * quad], IN_BLOCK[1][4 * quad]];
+            *first = self.first(which, x + right, y + down);
+        }
+        // Two quads at a time, which are one vector of most machines: halves of one that are stored apart are slow to read.
+        let steps: [f32; 8] = std::array::from_fn(|i| self.steps[which][i % 4]);
+        let mut values = [0.0; LANES];
+        for (values, first) in (values.as_chunks_mut().0.iter_mut()).zip(first.as_chunks::<2>().0) {
+            let first: [f32; 8] = std::array::from_fn(|i| first[i / 4]);
+            *values = std::array::from_fn::<f32, 8, _>(|i| first[i] + steps[i]);
+        }
+        values
+    }
+
+    /// A quantity at the first pixel of a quad.
+    #[inline(always)]
+    fn first(&self, which: usize, x: i32, y: i32) -> f32 {
+        let (x, y) = (f64::from(x), f64::from(y));
+        let Linear { at, dx, dy } = &self.linear;
+        // In double precision: from the screen's origin a float would lose what a small triangle needs.
+        (at[which] + dx[which] * x + dy[which] * y) as f32
+    }
+
+    /// A value of [`Self::INVERSE_W`] as it is divided by.
+    #[inline(always)]
+    pub(super) fn divisor(&self, inverse_w: f32) -> f32 {
         let floor = self.inverse_w_floor;
-        quantities[Self::INVERSE_W].map(|value| if value > floor { value } else { floor })
+        if inverse_w > floor { inverse_w } else { floor }
     }
 }
 

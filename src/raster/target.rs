@@ -7,6 +7,7 @@ use std::fmt;
 use image::RgbaImage;
 
 use super::names::named;
+use super::pixel::{LANES, QUADS};
 use super::record::Stored;
 use super::state::ColorMask;
 
@@ -14,12 +15,33 @@ use super::state::ColorMask;
 pub(super) const TILE: u32 = 64;
 const TILE_PIXELS: usize = (TILE * TILE) as usize;
 
-/// Where in its tile a pixel lies. The four of a quad follow each other: upper left, upper right, lower left, lower right.
+/// The side of the blocks that are covered, tested, shaded and stored as a whole where that can be: a batch of pixels.
+pub(super) const BLOCK: u32 = 8;
+const _: () = assert!((BLOCK * BLOCK) as usize == LANES && TILE % BLOCK == 0);
+
+/// Where in its tile a pixel lies. The pixels of a block follow each other, in it those of a quad: upper left, upper right,
+/// lower left, lower right.
 #[inline(always)]
 pub(super) const fn place_in_tile(x: u32, y: u32) -> usize {
     let (x, y) = (x % TILE, y % TILE);
-    ((y / 2 * (TILE / 2) + x / 2) * 4 + y % 2 * 2 + x % 2) as usize
+    let block = y / BLOCK * (TILE / BLOCK) + x / BLOCK;
+    let quad = y % BLOCK / 2 * (BLOCK / 2) + x % BLOCK / 2;
+    (block as usize * QUADS + quad as usize) * 4 + (y % 2 * 2 + x % 2) as usize
 }
+
+/// The column and the row of each pixel of a block, counted from its upper left one, in their order.
+pub(super) const IN_BLOCK: [[i32; LANES]; 2] = {
+    let mut places = [[0; LANES]; 2];
+    let mut pixel = 0;
+    while pixel < LANES {
+        let (x, y) = (pixel as u32 % BLOCK, pixel as u32 / BLOCK);
+        let place = place_in_tile(x, y);
+        places[0][place] = x as i32;
+        places[1][place] = y as i32;
+        pixel += 1;
+    }
+    places
+};
 
 named! {
     /// `D3DFORMAT`: what a colour target stores.
@@ -422,6 +444,22 @@ mod tests {
         assert_eq!(target.depth(64, 64), Some(0.0));
         assert_eq!(target.stencil(64, 64), Some(9));
         assert_eq!(target.to_image().dimensions(), (130, 65));
+    }
+
+    #[test]
+    fn blocks_follow_each_other_and_quads_in_them() {
+        // By hand: the second quad of the second row of quads, in the third block of the second row of blocks.
+        assert_eq!(
+            place_in_tile(64 + 16 + 2, 8 + 2),
+            (8 + 2) * 64 + (4 + 1) * 4
+        );
+        assert_eq!(place_in_tile(63, 63), 4095);
+        assert_eq!((IN_BLOCK[0][22], IN_BLOCK[1][22]), (2, 3));
+        let mut places: Vec<_> = (0..TILE * TILE)
+            .map(|at| place_in_tile(at % TILE, at / TILE))
+            .collect();
+        places.sort_unstable();
+        assert!(places.into_iter().eq(0..TILE_PIXELS));
     }
 
     #[test]

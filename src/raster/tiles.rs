@@ -2,20 +2,23 @@
 //! its own, on all cores if the feature `parallel` is on. Since a pixel lies in one tile, and a tile keeps the order, the
 //! picture does not depend on how many cores there are.
 
+use std::cell::Cell;
+
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
 use super::assemble::Primitives;
 use super::bins::{Bins, Sorter};
-use super::interpolate::{Interpolator, Shares, depths};
-use super::merger::{DepthTiming, depth_only, depth_stencil, merge};
-use super::pixel::{PixelBatch, PixelResult, PixelShader, QUADS};
+use super::interpolate::{Interpolator, Shares, block_depths, depths};
+use super::merger::{DepthTiming, depth_stencil, depth_stencil_block, merge};
+use super::pixel::{LANES, PixelBatch, PixelResult, PixelShader, QUADS};
+use super::plain::{bits, depth_only, number_in_tile};
 use super::record::Nobody;
-use super::scan::Bounds;
+use super::scan::{Bounds, Covered};
 use super::screen::Screen;
-use super::setup::{Planes, Stage};
+use super::setup::{Owner, Planes, Quantities, Stage};
 use super::state::{FillMode, FogMode};
-use super::target::{ColorFormat, TILE, Target, Tile};
+use super::target::{BLOCK, ColorFormat, IN_BLOCK, TILE, Target, Tile};
 use super::{DrawCall, DrawError, Topology};
 use crate::simd::{Simd, Task};
 
@@ -171,16 +174,20 @@ impl Task for Paint<'_, '_> {
 
     #[inline(always)]
     fn run(self) -> Statistics {
+        // Taken away, so that a shader that draws by itself finds another pair.
+        let mut loads = LOADS.take().unwrap_or_default();
+        let [pending, block] = &mut *loads;
         let mut brush = Brush {
             painter: self.painter,
             tile: self.tile,
-            batch: PixelBatch::empty(),
-            shares: Shares::empty(),
+            pending,
+            waiting: 0,
+            block,
             shaded: PixelResult::new(),
             statistics: Statistics::default(),
         };
         let stage = self.painter.stage;
-        let mut quads: Vec<(i32, i32, u8)> = Vec::new();
+        let mut covered = Covered::default();
         for (piece, entries) in self.bins.of(self.number) {
             for entry in entries {
                 let Some(found) = piece.find(self.sorter, *entry) else {
@@ -189,36 +196,107 @@ impl Task for Paint<'_, '_> {
                 let Some(bounds) = found.bounds().intersect(&self.area) else {
                     continue;
                 };
-                quads.clear();
-                (found.shape()).scan(&bounds, &stage.scissor, |x, y, mask| {
-                    quads.push((x, y, mask));
-                });
-                if quads.is_empty() {
+                covered.clear();
+                (found.shape()).scan(&bounds, &stage.scissor, &mut covered);
+                if covered.is_empty() {
                     continue;
                 }
-                let planes = found.planes(stage);
-                brush.shares.begin(found.owner());
-                for &(x, y, mask) in &quads {
-                    brush.quad(&planes, x, y, mask);
-                }
+                brush.shape(found.owner(), &found.planes(stage), &covered);
             }
         }
         brush.flush();
-        brush.statistics
+        let statistics = brush.statistics;
+        LOADS.set(Some(loads));
+        statistics
     }
 }
 
-/// Collects quads of one tile and draws them a batch at a time.
+thread_local! {
+    /// What a tile is painted with, kept for the next: to fill 60 KB with nothing takes as long as many a tile.
+    static LOADS: Cell<Option<Box<[Load; 2]>>> = const { Cell::new(None) };
+}
+
+/// Pixels on their way to the shader.
+struct Load {
+    batch: PixelBatch,
+    shares: Shares,
+}
+
+impl Default for Load {
+    fn default() -> Self {
+        Self {
+            batch: PixelBatch::empty(),
+            shares: Shares::empty(),
+        }
+    }
+}
+
+/// Draws the shapes of one tile a batch at a time: whole blocks at once, other quads as soon as there are enough.
 struct Brush<'a, 'b> {
     painter: &'a Painter<'b>,
     tile: &'a mut Tile,
-    batch: PixelBatch,
-    shares: Shares,
+    /// Quads that wait for others.
+    pending: &'a mut Load,
+    /// The blocks of the tile in which they lie: bit i is block i.
+    waiting: u64,
+    /// Where blocks come and go.
+    block: &'a mut Load,
     shaded: PixelResult,
     statistics: Statistics,
 }
 
+const _: () = assert!((TILE / BLOCK).pow(2) <= u64::BITS);
+
+/// The bit of [`Brush::waiting`] for the block around a pixel.
+#[inline(always)]
+fn bit_of_block(x: i32, y: i32) -> u64 {
+    1 << number_in_tile::<LANES>(x, y)
+}
+
 impl Brush<'_, '_> {
+    /// Draws what is covered of a shape. Its blocks come first: none of its quads lies in them.
+    #[inline(always)]
+    fn shape(&mut self, owner: Owner, planes: &Planes, covered: &Covered) {
+        self.pending.shares.begin(owner);
+        for &(x, y) in &covered.blocks {
+            self.block(owner, planes, x, y);
+        }
+        for &(x, y, mask) in &covered.quads {
+            self.quad(planes, x, y, mask);
+        }
+    }
+
+    #[inline(always)]
+    fn block(&mut self, owner: Owner, planes: &Planes, x: i32, y: i32) {
+        let state = self.painter.stage.call.state;
+        let z = block_depths(planes, x, y);
+        let live = match self.painter.timing {
+            DepthTiming::Early => depth_stencil_block(self.tile, state, (x, y), &z),
+            DepthTiming::Late { reject: true, .. } => depth_only(self.tile, state, (x, y), &z),
+            DepthTiming::Late { .. } => [true; LANES],
+        };
+        if live != [true; LANES] {
+            let masks: [u8; QUADS] = std::array::from_fn(|quad| bits(&live.as_chunks().0[quad]));
+            if masks.contains(&0) {
+                // Quads of which nothing is left are not shaded.
+                for (quad, mask) in masks.into_iter().enumerate().filter(|(_, mask)| *mask != 0) {
+                    let (x, y) = (x + IN_BLOCK[0][4 * quad], y + IN_BLOCK[1][4 * quad]);
+                    self.keep(planes, (x, y), mask, &planes.quad(x, y));
+                }
+                return;
+            }
+        }
+        if self.waiting & bit_of_block(x, y) != 0 {
+            // Of earlier shapes, which come first.
+            self.flush();
+        }
+        self.block.batch.place_block(x, y, live, &z);
+        self.block.shares.place_block(owner, planes, x, y);
+        self.statistics.shaded += live.iter().map(|live| u64::from(*live)).sum::<u64>();
+        self.statistics =
+            self.statistics + draw_load(self.painter, self.tile, self.block, &mut self.shaded);
+    }
+
     #[inline(always)]
     fn quad(&mut self, planes: &Planes, x: i32, y: i32, mask: u8) {
         let state = self.painter.stage.call.state;
@@ -226,42 +304,95 @@ impl Brush<'_, '_> {
         let z = depths(&quantities);
         let mask = match self.painter.timing {
             DepthTiming::Early => depth_stencil(self.tile, state, (x, y), &z, mask, &mut Nobody),
-            DepthTiming::Late { reject: true, .. } => depth_only(self.tile, state, x, y, &z, mask),
+            DepthTiming::Late { reject: true, .. } => {
+                bits(&depth_only(self.tile, state, (x, y), &z)) & mask
+            }
             DepthTiming::Late { .. } => mask,
         };
+        self.keep(planes, (x, y), mask, &quantities);
+    }
+
+    /// Lets the pixels in `mask` wait to be shaded.
+    #[inline(always)]
+    fn keep(&mut self, planes: &Planes, (x, y): (i32, i32), mask: u8, quantities: &Quantities) {
         if mask == 0 {
             return;
         }
-        // Before, not behind: there is one place only where a batch is drawn while quads come.
-        if self.batch.quads == QUADS {
+        // Before, not behind: a quad that comes last is drawn with the batch.
+        if self.pending.batch.quads == QUADS {
             self.flush();
         }
-        let quad = self.batch.quads;
-        self.batch.place(quad, x, y, mask, &z);
-        self.shares.place(quad, planes, &quantities);
-        self.batch.quads += 1;
+        let Load { batch, shares } = &mut *self.pending;
+        let quad = batch.quads;
+        batch.place(quad, x, y, mask, &depths(quantities));
+        shares.place(quad, planes, quantities);
+        batch.quads += 1;
+        self.waiting |= bit_of_block(x, y);
         self.statistics.shaded += u64::from(mask.count_ones());
     }
 
+    /// Draws the quads that wait.
     #[inline(always)]
     fn flush(&mut self) {
-        if self.batch.quads == 0 {
+        if self.pending.batch.quads == 0 {
             return;
         }
+        self.statistics =
+            self.statistics + draw_load(self.painter, self.tile, self.pending, &mut self.shaded);
+        self.pending.batch.quads = 0;
+        self.waiting = 0;
+    }
+}
+
+/// Shades a batch and puts it into its tile. Tells of its quads and of what was written.
+#[inline(always)]
+fn draw_load(
+    painter: &Painter,
+    tile: &mut Tile,
+    load: &mut Load,
+    shaded: &mut PixelResult,
+) -> Statistics {
+    let finish = Finish {
+        painter,
+        tile,
+        load,
+        shaded,
+    };
+    // One function for all who call it, instead of a copy in each.
+    painter.simd.run(finish)
+}
+
+/// A batch that is in its place, as something that is compiled for each set of instructions.
+struct Finish<'a, 'b> {
+    painter: &'a Painter<'b>,
+    tile: &'a mut Tile,
+    load: &'a mut Load,
+    shaded: &'a mut PixelResult,
+}
+
+impl Task for Finish<'_, '_> {
+    type Output = Statistics;
+
+    #[inline(always)]
+    fn run(self) -> Statistics {
+        let Load { batch, shares } = self.load;
         let painter = self.painter;
-        (painter.interpolator).fill(&mut self.batch, &mut self.shares);
+        (painter.interpolator).fill(batch, shares);
         self.shaded.killed.fill(false);
-        painter.shader.shade(&self.batch, &mut self.shaded);
-        self.statistics.quads += self.batch.quads as u64;
-        self.statistics.written += merge(
+        painter.shader.shade(batch, self.shaded);
+        let written = merge(
             self.tile,
             painter.format,
             painter.stage.call.state,
             painter.timing,
-            &self.batch,
-            &self.shaded,
+            batch,
+            self.shaded,
             &mut Nobody,
         );
-        self.batch.quads = 0;
+        Statistics {
+            quads: batch.quads as u64,
+            written,
+            ..Statistics::default()
+        }
     }
 }
