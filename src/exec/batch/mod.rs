@@ -15,7 +15,7 @@ use super::environment::Environment;
 use crate::kernel::{Plan, RowOp, Slot, UniformValue};
 use crate::semantics::flush;
 use crate::simd::{Simd, Task};
-use reach::Reach;
+use reach::{Greatest, Reach};
 use rows::Rows;
 use samples::Samples;
 use step::Turn;
@@ -73,7 +73,7 @@ impl<const N: usize> Batch<N> {
         plan: &Plan,
         component: impl Fn(Slot, usize) -> Option<&'r [f32; N]>,
     ) {
-        let mut greatest = [0; N];
+        let mut greatest = Greatest::default();
         for input in &plan.inputs {
             let Some(values) = component(input.slot, usize::from(input.component)) else {
                 continue;
@@ -141,7 +141,7 @@ impl<const N: usize> Batch<N> {
             );
             if let RowOp::Sample(_) = step.op {
                 let results = plan.items(step).flat_map(|(results, _)| results);
-                let mut greatest = [0; N];
+                let mut greatest = Greatest::default();
                 for row in results.filter_map(|row| self.rows.get(*row)) {
                     reach::raise(&mut greatest, row);
                 }
