@@ -54,6 +54,8 @@ pub(super) struct Shares {
     /// The shape of the quads that come next, and whether it is the last of the runs.
     owner: Owner,
     open: bool,
+    /// What is interpolated at the vertices of the shape whose pixels are next: in a batch of a block, of the block.
+    ends: Vec<[f32; 3]>,
 }
 
 impl Shares {
@@ -68,6 +70,7 @@ impl Shares {
             count: 0,
             owner: Owner::default(),
             open: false,
+            ends: Vec::new(),
         }
     }
 
@@ -95,9 +98,9 @@ impl Shares {
         }
     }
 
-    /// Puts the quads of a block in their places, which must be free.
+    /// Puts the quads of a block in their places. [`Interpolator::begin_blocks`] must have been told of their shape.
     #[inline(always)]
-    pub(super) fn place_block(&mut self, owner: Owner, planes: &Planes, x: i32, y: i32) {
+    pub(super) fn place_block(&mut self, planes: &Planes, x: i32, y: i32) {
         for (share, which) in self.of.iter_mut().zip(Planes::SHARES) {
             *share = planes.block(which, x, y);
         }
@@ -106,8 +109,6 @@ impl Shares {
             *divisor = planes.divisor(inverse_w);
         }
         self.w_scale = [planes.w_scale; LANES];
-        self.runs[0] = (0, owner);
-        self.count = 1;
     }
 
     /// The shares at the pixels of a quad, once the batch is filled.
@@ -157,58 +158,74 @@ impl<'a> Interpolator<'a> {
         }
     }
 
+    /// Fetches what the vertices of a shape have, for all of its blocks.
+    #[inline(always)]
+    pub(super) fn begin_blocks(&self, owner: &Owner, shares: &mut Shares) {
+        self.fetch(owner, &mut shares.ends);
+    }
+
     /// Completes a batch whose quads are in their places. The shares are ready for the next one.
     #[inline(always)]
     pub(super) fn fill(&self, batch: &mut PixelBatch, shares: &mut Shares) {
         shares.divide(batch);
+        if batch.block {
+            self.mix(batch, &shares.ends, &shares.of, 0..QUADS);
+            return;
+        }
         let mut end = batch.quads.min(QUADS);
         // The vertices of a shape are fetched once for all of its quads.
         for run in (0..shares.count).rev() {
             let (first, owner) = &shares.runs[run];
-            self.fill_quads(batch, owner, &shares.of, *first..end);
+            self.fetch(owner, &mut shares.ends);
+            self.mix(batch, &shares.ends, &shares.of, *first..end);
             end = *first;
         }
         shares.count = 0;
         shares.open = false;
     }
 
+    /// What is interpolated, at the vertices of a shape.
     #[inline(always)]
-    fn fill_quads(
-        &self,
-        batch: &mut PixelBatch,
-        owner: &Owner,
-        shares: &[[f32; LANES]; 2],
-        quads: Range<usize>,
-    ) {
-        let part = Part { shares, quads };
+    fn fetch(&self, owner: &Owner, ends: &mut Vec<[f32; 3]>) {
         let colored = match self.shade {
             ShadeMode::Gouraud => owner.vertices,
             ShadeMode::Flat => [owner.provoking; 3],
         };
+        ends.clear();
         for wanted in &self.wanted {
+            let at = |[a, b, c]: [u32; 3]| wanted.ends.at_three(a, b, c);
+            ends.push(match (wanted.output, owner.sprite, wanted.component) {
+                // In a sprite the shares are the position: 0 to 1 across and down.
+                (Output::Texcoords(_), true, 0) => [0.0, 1.0, 0.0],
+                (Output::Texcoords(_), true, 1) => [0.0, 0.0, 1.0],
+                (Output::Texcoords(_), true, _) => [0.0; 3],
+                (Output::Texcoords(_), false, _) => at(owner.vertices),
+                (Output::Fog, ..) => at(owner.vertices).map(fog_unit),
+                _ => at(colored).map(unit),
+            });
+        }
+    }
+
+    /// From what the vertices of a shape have to its pixels.
+    #[inline(always)]
+    fn mix(
+        &self,
+        batch: &mut PixelBatch,
+        ends: &[[f32; 3]],
+        shares: &[[f32; LANES]; 2],
+        quads: Range<usize>,
+    ) {
+        let part = Part { shares, quads };
+        for (wanted, ends) in self.wanted.iter().zip(ends) {
             let component = wanted.component;
-            let ends = |[a, b, c]: [u32; 3]| wanted.ends.at_three(a, b, c);
             match wanted.output {
                 Output::Texcoords(set) => {
-                    let ends = match (owner.sprite, component) {
-                        (false, _) => ends(owner.vertices),
-                        // In a sprite the shares are the position: 0 to 1 across and down.
-                        (true, 0) => [0.0, 1.0, 0.0],
-                        (true, 1) => [0.0, 0.0, 1.0],
-                        (true, _) => [0.0; 3],
-                    };
-                    part.mix(&mut batch.texcoords[set][component], ends, |value| value);
+                    part.mix(&mut batch.texcoords[set][component], *ends, |value| value);
                 }
-                Output::Fog => {
-                    part.mix(&mut batch.fog, ends(owner.vertices).map(fog_unit), unit);
-                }
+                Output::Fog => part.mix(&mut batch.fog, *ends, unit),
                 // A colour is taken into 0 to 1 again, as pixel shaders read it.
-                Output::Specular => part.mix(
-                    &mut batch.specular[component],
-                    ends(colored).map(unit),
-                    unit,
-                ),
-                _ => part.mix(&mut batch.diffuse[component], ends(colored).map(unit), unit),
+                Output::Specular => part.mix(&mut batch.specular[component], *ends, unit),
+                _ => part.mix(&mut batch.diffuse[component], *ends, unit),
             }
         }
     }

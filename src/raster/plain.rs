@@ -104,9 +104,13 @@ pub(super) fn depth_alone_block(
         return [false; LANES];
     };
     let passed = depths_pass(state.depth.func, z, stored);
-    if state.depth.write {
+    if state.depth.write && passed == [true; LANES] {
+        *stored = *z;
+    } else if state.depth.write {
         for ((stored, new), passed) in stored.iter_mut().zip(z).zip(passed) {
-            *stored = if passed { *new } else { *stored };
+            // Of bits, as in a quad: a choice becomes a jump for each pixel.
+            let taken = u32::from(passed).wrapping_neg();
+            *stored = f32::from_bits(new.to_bits() & taken | stored.to_bits() & !taken);
         }
     }
     passed

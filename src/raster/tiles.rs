@@ -257,9 +257,12 @@ impl Brush<'_, '_> {
     /// Draws what is covered of a shape. Its blocks come first: none of its quads lies in them.
     #[inline(always)]
     fn shape(&mut self, owner: Owner, planes: &Planes, covered: &Covered) {
+        if !covered.blocks.is_empty() {
+            (self.painter.interpolator).begin_blocks(&owner, &mut self.block.shares);
+        }
         self.pending.shares.begin(owner);
         for &(x, y) in &covered.blocks {
-            self.block(owner, planes, x, y);
+            self.block(planes, x, y);
         }
         for &(x, y, mask) in &covered.quads {
             self.quad(planes, x, y, mask);
@@ -267,7 +270,7 @@ impl Brush<'_, '_> {
     }
 
     #[inline(always)]
-    fn block(&mut self, owner: Owner, planes: &Planes, x: i32, y: i32) {
+    fn block(&mut self, planes: &Planes, x: i32, y: i32) {
         let state = self.painter.stage.call.state;
         let z = block_depths(planes, x, y);
         let live = match self.painter.timing {
@@ -275,6 +278,7 @@ impl Brush<'_, '_> {
             DepthTiming::Late { reject: true, .. } => depth_only(self.tile, state, (x, y), &z),
             DepthTiming::Late { .. } => [true; LANES],
         };
+        let mut pixels = LANES as u32;
         if live != [true; LANES] {
             let masks: [u8; QUADS] = std::array::from_fn(|quad| bits(&live.as_chunks().0[quad]));
             if masks.contains(&0) {
@@ -285,16 +289,17 @@ impl Brush<'_, '_> {
                 }
                 return;
             }
+            pixels = masks.into_iter().map(u8::count_ones).sum();
         }
         if self.waiting & bit_of_block(x, y) != 0 {
             // Of earlier shapes, which come first.
             self.flush();
         }
         self.block.batch.place_block(x, y, live, &z);
-        self.block.shares.place_block(owner, planes, x, y);
-        self.statistics.shaded += live.iter().map(|live| u64::from(*live)).sum::<u64>();
-        self.statistics =
-            self.statistics + draw_load(self.painter, self.tile, self.block, &mut self.shaded);
+        self.block.shares.place_block(planes, x, y);
+        self.statistics.shaded += u64::from(pixels);
+        self.statistics.quads += QUADS as u64;
+        self.statistics.written += draw_load(self.painter, self.tile, self.block, &mut self.shaded);
     }
 
     #[inline(always)]
@@ -337,21 +342,17 @@ impl Brush<'_, '_> {
         if self.pending.batch.quads == 0 {
             return;
         }
-        self.statistics =
-            self.statistics + draw_load(self.painter, self.tile, self.pending, &mut self.shaded);
+        self.statistics.quads += self.pending.batch.quads as u64;
+        self.statistics.written +=
+            draw_load(self.painter, self.tile, self.pending, &mut self.shaded);
         self.pending.batch.quads = 0;
         self.waiting = 0;
     }
 }
 
-/// Shades a batch and puts it into its tile. Tells of its quads and of what was written.
+/// Shades a batch and puts it into its tile. Returns how many pixels were written.
 #[inline(always)]
-fn draw_load(
-    painter: &Painter,
-    tile: &mut Tile,
-    load: &mut Load,
-    shaded: &mut PixelResult,
-) -> Statistics {
+fn draw_load(painter: &Painter, tile: &mut Tile, load: &mut Load, shaded: &mut PixelResult) -> u64 {
     let finish = Finish {
         painter,
         tile,
@@ -371,16 +372,16 @@ struct Finish<'a, 'b> {
 }
 
 impl Task for Finish<'_, '_> {
-    type Output = Statistics;
+    type Output = u64;
 
     #[inline(always)]
-    fn run(self) -> Statistics {
+    fn run(self) -> u64 {
         let Load { batch, shares } = self.load;
         let painter = self.painter;
         (painter.interpolator).fill(batch, shares);
         self.shaded.killed.fill(false);
         painter.shader.shade(batch, self.shaded);
-        let written = merge(
+        merge(
             self.tile,
             painter.format,
             painter.stage.call.state,
@@ -388,11 +389,6 @@ impl Task for Finish<'_, '_> {
             batch,
             self.shaded,
             &mut Nobody,
-        );
-        Statistics {
-            quads: batch.quads as u64,
-            written,
-            ..Statistics::default()
-        }
+        )
     }
 }

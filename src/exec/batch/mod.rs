@@ -15,7 +15,7 @@ use super::environment::{Environment, STAGES};
 use crate::kernel::{Plan, RowOp, RowStep, Slot, UniformValue};
 use crate::semantics::flush;
 use crate::simd::{Simd, Task};
-use reach::Reach;
+use reach::{Greatest, Reach};
 use rows::Rows;
 use samples::Samples;
 use step::Turn;
@@ -73,19 +73,16 @@ impl<const N: usize> Batch<N> {
         plan: &Plan,
         component: impl Fn(Slot, usize) -> Option<&'r [f32; N]>,
     ) {
-        let mut greatest = [0; N];
+        let mut greatest = Greatest::default();
         for input in &plan.inputs {
             let Some(values) = component(input.slot, usize::from(input.component)) else {
                 continue;
             };
             reach::raise(&mut greatest, values);
-            let mut loaded = *values;
-            if input.flushed {
-                for number in &mut loaded {
-                    *number = flush(*number);
-                }
+            match input.flushed {
+                true => self.rows.load(input.row, values, flush),
+                false => self.rows.load(input.row, values, |number| number),
             }
-            self.rows.set(input.row, &loaded);
         }
         self.within = self.reach.admits(&greatest);
     }
@@ -150,7 +147,7 @@ impl<const N: usize> Batch<N> {
                     {
                         self.is_within(plan, step)
                     }
-                    _ => self.reach.admits(&[1.0_f32.to_bits()]),
+                    _ => self.reach.admits(&[1.0_f32.to_bits(); 8]),
                 };
             }
         }
@@ -160,7 +157,7 @@ impl<const N: usize> Batch<N> {
     #[inline(always)]
     fn is_within(&self, plan: &Plan, step: &RowStep) -> bool {
         let results = plan.items(step).flat_map(|(results, _)| results);
-        let mut greatest = [0; N];
+        let mut greatest = Greatest::default();
         for row in results.filter_map(|row| self.rows.get(*row)) {
             reach::raise(&mut greatest, row);
         }

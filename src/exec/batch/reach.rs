@@ -44,15 +44,27 @@ impl Reach {
 
     /// Whether numbers are within the limit: `greatest` is what [`raise`] has made of them.
     #[inline(always)]
-    pub(super) fn admits<const N: usize>(&self, greatest: &[u32; N]) -> bool {
+    pub(super) fn admits(&self, greatest: &Greatest) -> bool {
         greatest.iter().fold(0, |a, b| a.max(*b)) <= self.limit.to_bits()
     }
 }
 
-/// Raises magnitudes to those of some numbers. They are told by their bits, which have the same order, with NaN behind
-/// infinity.
+/// The greatest magnitudes of some numbers. They are told by their bits, which have the same order, with NaN behind infinity.
+/// As many as one vector has: it stays in a register.
+pub(super) type Greatest = [u32; 8];
+
+/// Raises magnitudes to those of some numbers.
 #[inline(always)]
-pub(super) fn raise<const N: usize>(greatest: &mut [u32; N], numbers: &[f32; N]) {
+pub(super) fn raise<const N: usize>(greatest: &mut Greatest, numbers: &[f32; N]) {
+    let (vectors, rest) = numbers.as_chunks::<8>();
+    for vector in vectors {
+        raise_by(greatest, vector);
+    }
+    raise_by(greatest, rest);
+}
+
+#[inline(always)]
+fn raise_by(greatest: &mut Greatest, numbers: &[f32]) {
     for (greatest, number) in greatest.iter_mut().zip(numbers) {
         *greatest = (*greatest).max(number.abs().to_bits());
     }
@@ -206,7 +218,7 @@ mod tests {
             (-f32::NAN, false),
             (f32::NEG_INFINITY, false),
         ] {
-            let mut greatest = [0; 4];
+            let mut greatest = [0; 8];
             raise(&mut greatest, &[0.5, number, -1.0, 0.0]);
             assert_eq!(reach.admits(&greatest), admitted, "{number}");
         }
