@@ -79,10 +79,13 @@ impl<const N: usize> Batch<N> {
                 continue;
             };
             reach::raise(&mut greatest, values);
-            match input.flushed {
-                true => self.rows.load(input.row, values, flush),
-                false => self.rows.load(input.row, values, |number| number),
+            let mut loaded = *values;
+            if input.flushed {
+                for number in &mut loaded {
+                    *number = flush(*number);
+                }
             }
+            self.rows.set(input.row, &loaded);
         }
         self.within = self.reach.admits(&greatest);
     }

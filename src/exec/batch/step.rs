@@ -206,8 +206,9 @@ impl<const N: usize> On<'_, N> {
         for item in self.plan.operands(self.step).chunks_exact(S + 1) {
             if let Some((to, from)) = item.split_first()
                 && let Some(from) = from.first_chunk::<S>()
+                && let Some(results) = self.rows.each_lane(*from, &f)
             {
-                self.rows.apply(*to, *from, &f);
+                self.rows.set(*to, &results);
             }
         }
     }
