@@ -43,8 +43,6 @@ struct Wanted<'a> {
 }
 
 /// The shares of the second and of the third vertex at the pixels of a batch, and whose vertices these are.
-// As that of pixels: no vector of it lies in two lines of the cache.
-#[repr(C, align(64))]
 pub(super) struct Shares {
     /// Times [`Self::inverse_w`] until [`Interpolator::fill`] divides them.
     of: [[f32; LANES]; 2],

@@ -189,7 +189,10 @@ proptest! {
 
 /// Writes down the bits of all inputs of the pixels it is given, and how many blocks there were.
 #[derive(Default)]
-struct Notes(Mutex<(HashMap<(i32, i32), Vec<u32>>, usize)>);
+struct Notes(Mutex<(Noted, usize)>);
+
+/// By pixel.
+type Noted = HashMap<(i32, i32), Vec<u32>>;
 
 fn inputs_of(batch: &PixelBatch, lane: usize) -> Vec<u32> {
     let attributes = [&batch.diffuse, &batch.specular].into_iter();
