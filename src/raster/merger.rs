@@ -1,9 +1,7 @@
 //! The output merger: fog, alpha test, depth and stencil test, blending, colour write mask.
 
-use super::pixel::{Attribute, LANES, PixelBatch, PixelResult, lanes};
-use super::plain::{
-    bits, depth_alone, depth_alone_block, depth_only, is_plain, number_in_tile, put_plain,
-};
+use super::pixel::{Attribute, PixelBatch, PixelResult};
+use super::plain::{bits, depth_alone, depth_only, is_plain, number_in_tile, put_plain};
 use super::record::{
     AlphaTested, BlendWeight, Blended, ColorWritten, DepthTested, FogSource, Fogged, Nobody,
     StencilTested, Watcher,
@@ -12,7 +10,7 @@ use super::state::{
     BlendFactor, BlendOp, BlendState, Compare, FogDistance, FogMode, FogState, RenderState,
     StencilOp, StencilState,
 };
-use super::target::{ColorFormat, IN_BLOCK, Tile};
+use super::target::{ColorFormat, Tile};
 use super::{fog_unit, unit};
 
 /// Red, green, blue and alpha of the four pixels of a quad.
@@ -118,29 +116,6 @@ pub(super) fn depth_stencil(
                 });
             });
         }
-    }
-    passed
-}
-
-/// The same of a block, nobody watching.
-#[inline(always)]
-pub(super) fn depth_stencil_block(
-    tile: &mut Tile,
-    state: &RenderState,
-    (x, y): (i32, i32),
-    z: &[f32; LANES],
-) -> [bool; LANES] {
-    if !state.stencil.enable {
-        return match state.depth.enable {
-            true => depth_alone_block(tile, state, (x, y), z),
-            false => [true; LANES],
-        };
-    }
-    let mut passed = [false; LANES];
-    let quads = passed.as_chunks_mut().0.iter_mut().zip(z.as_chunks().0);
-    for (quad, (passed, z)) in quads.enumerate() {
-        let at = (x + IN_BLOCK[0][4 * quad], y + IN_BLOCK[1][4 * quad]);
-        *passed = lanes(depth_stencil(tile, state, at, z, 0xf, &mut Nobody));
     }
     passed
 }

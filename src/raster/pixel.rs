@@ -76,9 +76,13 @@ impl PixelBatch {
     /// Makes it a batch of a block: the position of its first pixel, which of its pixels are live, their depths.
     #[inline(always)]
     pub(super) fn place_block(&mut self, x: i32, y: i32, live: [bool; LANES], z: &[f32; LANES]) {
-        for lane in 0..LANES {
-            self.x[lane] = x + IN_BLOCK[0][lane];
-            self.y[lane] = y + IN_BLOCK[1][lane];
+        let places = [(&mut self.x, x), (&mut self.y, y)]
+            .into_iter()
+            .zip(IN_BLOCK);
+        for ((places, first), offsets) in places {
+            for (place, offset) in places.iter_mut().zip(offsets) {
+                *place = first + offset;
+            }
         }
         self.live = live;
         self.z = *z;

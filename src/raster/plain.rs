@@ -1,9 +1,10 @@
-//! The short ways through the output merger, for whole quads of which nobody wants to know more than the pixels.
+//! The short ways through the output merger, for whole quads and blocks of which nobody wants to know more than the pixels.
 
-use super::merger::{DepthTiming, to_byte};
-use super::pixel::{LANES, PixelBatch, PixelResult};
+use super::merger::{DepthTiming, depth_stencil, to_byte};
+use super::pixel::{LANES, PixelBatch, PixelResult, lanes};
+use super::record::Nobody;
 use super::state::{Compare, RenderState};
-use super::target::{ColorFormat, Tile, place_in_tile};
+use super::target::{ColorFormat, IN_BLOCK, Tile, place_in_tile};
 use super::unit;
 
 /// The number of what begins at a pixel in its tile: of a quad for `N` = 4, of a block for `N` = 64.
@@ -91,9 +92,9 @@ pub(super) fn depth_alone(
     passed
 }
 
-/// The same of a block.
+/// The same of a block. Returns which of its pixels pass.
 #[inline(always)]
-pub(super) fn depth_alone_block(
+fn depth_alone_block(
     tile: &mut Tile,
     state: &RenderState,
     (x, y): (i32, i32),
@@ -112,6 +113,29 @@ pub(super) fn depth_alone_block(
             let taken = u32::from(passed).wrapping_neg();
             *stored = f32::from_bits(new.to_bits() & taken | stored.to_bits() & !taken);
         }
+    }
+    passed
+}
+
+/// The depth and stencil test of a block, with their writes, nobody watching. Returns which of its pixels pass.
+#[inline(always)]
+pub(super) fn depth_stencil_block(
+    tile: &mut Tile,
+    state: &RenderState,
+    (x, y): (i32, i32),
+    z: &[f32; LANES],
+) -> [bool; LANES] {
+    if !state.stencil.enable {
+        return match state.depth.enable {
+            true => depth_alone_block(tile, state, (x, y), z),
+            false => [true; LANES],
+        };
+    }
+    let mut passed = [false; LANES];
+    let quads = passed.as_chunks_mut().0.iter_mut().zip(z.as_chunks().0);
+    for (quad, (passed, z)) in quads.enumerate() {
+        let at = (x + IN_BLOCK[0][4 * quad], y + IN_BLOCK[1][4 * quad]);
+        *passed = lanes(depth_stencil(tile, state, at, z, 0xf, &mut Nobody));
     }
     passed
 }

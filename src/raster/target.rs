@@ -17,7 +17,7 @@ const TILE_PIXELS: usize = (TILE * TILE) as usize;
 
 /// The side of the blocks that are covered, tested, shaded and stored as a whole where that can be: a batch of pixels.
 pub(super) const BLOCK: u32 = 8;
-const _: () = assert!((BLOCK * BLOCK) as usize == LANES && TILE % BLOCK == 0);
+const _: () = assert!((BLOCK * BLOCK) as usize == LANES && TILE.is_multiple_of(BLOCK));
 
 /// Where in its tile a pixel lies. The pixels of a block follow each other, in it those of a quad: upper left, upper right,
 /// lower left, lower right.

@@ -1,5 +1,8 @@
 //! How a pixel's inputs follow from those of the vertices, as a debugger is told.
 
+use std::collections::HashMap;
+use std::sync::Mutex;
+
 use proptest::prelude::*;
 
 use super::*;
@@ -180,6 +183,75 @@ proptest! {
             }
             prop_assert_eq!(provoking.is_some(), shade == ShadeMode::Flat);
             prop_assert!(!fragment.helpers()[fragment.lane]);
+        }
+    }
+}
+
+/// Writes down the bits of all inputs of the pixels it is given, and how many blocks there were.
+#[derive(Default)]
+struct Notes(Mutex<(Noted, usize)>);
+
+/// By pixel.
+type Noted = HashMap<(i32, i32), Vec<u32>>;
+
+fn inputs_of(batch: &PixelBatch, lane: usize) -> Vec<u32> {
+    let attributes = [&batch.diffuse, &batch.specular].into_iter();
+    let rows = attributes.chain(&batch.texcoords).flatten();
+    let rows = rows.chain([&batch.z, &batch.w, &batch.fog]);
+    rows.map(|row| row[lane].to_bits()).collect()
+}
+
+impl PixelShader for Notes {
+    fn inputs(&self) -> PixelInputs {
+        PixelInputs::ALL
+    }
+
+    fn shade(&self, batch: &PixelBatch, _: &mut PixelResult) {
+        let mut notes = self.0.lock().unwrap();
+        notes.1 += usize::from(batch.block);
+        for lane in (0..4 * batch.quads).filter(|lane| batch.live[*lane]) {
+            let place = (batch.x[lane], batch.y[lane]);
+            assert_eq!(notes.0.insert(place, inputs_of(batch, lane)), None);
+        }
+    }
+}
+
+proptest! {
+    /// A debugger works out a quad, `draw` whole blocks.
+    #[test]
+    fn blocks_have_the_bits_of_quads(
+        moved in prop::array::uniform3((-20.0_f32..0.0, -20.0_f32..0.0, 0.0_f32..1.0, 0.1_f32..10.0)),
+        attributes in prop::array::uniform3(prop::array::uniform4(-3.0_f32..3.0)),
+        flat in any::<bool>(),
+    ) {
+        let beyond = [(0.0, 0.0), (80.0, 0.0), (0.0, 80.0)];
+        let vertices: [Vertex; 3] = std::array::from_fn(|i| {
+            let ((x, y, z, w), attribute) = (moved[i], attributes[i]);
+            Vertex {
+                diffuse: attribute.into(),
+                specular: (Vec4::from(attribute) / 3.0),
+                texcoords: std::array::from_fn(|set| Vec4::from(attribute) * set as f32),
+                fog: attribute[0],
+                ..at(x + beyond[i].0, y + beyond[i].1, z, w)
+            }
+        });
+        let state = RenderState {
+            shade: if flat { ShadeMode::Flat } else { ShadeMode::Gouraud },
+            fog: FogState { enable: true, ..FogState::default() },
+            ..open()
+        };
+        let (shaded, notes) = (Vertices::from(&vertices[..]), Notes::default());
+        draw(&mut target(), &call(&state, Topology::TriangleList, &shaded), &notes).unwrap();
+        let (noted, blocks) = notes.0.into_inner().unwrap();
+        // 16×16 pixels, all of them covered.
+        prop_assert_eq!((noted.len(), blocks), (256, 4));
+        for (x, y) in (0..256).map(|at| (at % 16, at / 16)) {
+            let found = fragments(&state, Topology::TriangleList, &vertices, (x, y));
+            let [fragment] = found.as_slice() else {
+                panic!("{found:?}");
+            };
+            let expected = inputs_of(&fragment.batch, fragment.lane);
+            prop_assert_eq!(&noted[&(x as i32, y as i32)], &expected);
         }
     }
 }

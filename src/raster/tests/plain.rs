@@ -2,9 +2,9 @@
 
 use super::super::merger::{DepthTiming, depth_stencil, merge};
 use super::super::pixel::QUADS;
-use super::super::plain::is_plain;
+use super::super::plain::{depth_stencil_block, is_plain};
 use super::super::record::{Nobody, Watcher};
-use super::super::target::TILE;
+use super::super::target::{BLOCK, TILE};
 use super::*;
 use crate::generate::Random;
 
@@ -106,6 +106,11 @@ fn quads(random: &mut Random) -> (PixelBatch, PixelResult) {
         let z = std::array::from_fn(|_| unit(number(random)));
         batch.place(quad, x, y, live, &z);
     }
+    if random.chance(40) {
+        let [x, y] = [(); 2].map(|()| (random.below(TILE / BLOCK) * BLOCK) as i32);
+        let z = std::array::from_fn(|_| unit(number(random)));
+        batch.place_block(x, y, [true; LANES], &z);
+    }
     for values in shaded.color.iter_mut().chain([&mut shaded.depth]) {
         values.fill_with(|| number(random));
     }
@@ -123,7 +128,11 @@ fn put(
 ) -> (u64, bool) {
     let format = target.format();
     let tile = target.tiles_mut()[0].settled();
-    if timing == DepthTiming::Early {
+    if timing == DepthTiming::Early && batch.block && !watcher.watches() {
+        let (x, y, z) = (batch.x[0], batch.y[0], batch.z);
+        let passed = depth_stencil_block(tile, state, (x, y), &z);
+        batch.place_block(x, y, passed, &z);
+    } else if timing == DepthTiming::Early {
         for quad in 0..batch.quads {
             let (lane, z) = (4 * quad, batch.z.as_chunks().0[quad]);
             let place = (batch.x[lane], batch.y[lane]);

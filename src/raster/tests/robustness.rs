@@ -107,6 +107,29 @@ fn diffuse(batch: &PixelBatch, lane: usize) -> [f32; 4] {
     batch.diffuse.map(|component| component[lane])
 }
 
+#[test]
+fn blocks_wait_for_quads_of_earlier_triangles() {
+    let tinted = |color: Vec4, corners: [Vertex; 3]| {
+        corners.map(|corner| Vertex {
+            diffuse: color,
+            ..corner
+        })
+    };
+    let part = tinted(Vec4::X, [on(0.0, 0.0), on(5.0, 0.0), on(0.0, 5.0)]);
+    let all = tinted(Vec4::Y, everywhere(on(0.0, 0.0)));
+    let colors = |triangles: [[Vertex; 3]; 2]| {
+        let mut drawn = target();
+        let vertices = Vertices::from(triangles.as_flattened());
+        let state = open();
+        let call = call(&state, Topology::TriangleList, &vertices);
+        draw(&mut drawn, &call, &paint(diffuse)).unwrap();
+        [(0, 0), (7, 7)].map(|(x, y)| drawn.color(x, y).unwrap())
+    };
+    let (red, green) = ([255, 0, 0, 0], [0, 255, 0, 0]);
+    assert_eq!(colors([part, all]), [green, green]);
+    assert_eq!(colors([all, part]), [red, green]);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
