@@ -5,7 +5,7 @@
 //! Rust never contracts `a * b + c`, so the bits are the same on every target as well.
 //!
 //! Numbers are 32-bit floats, of which a hardware model may allow fewer ([`held`], [`operand`]). Two rules of the shader model hold everywhere: a product with a factor of zero is
-//! +0, whatever the other factor is ([`mul`], unless [`product`] is told otherwise), and denormal results are flushed to zero ([`Finish`]).
+//! +0, whatever the other factor is ([`mul`], unless [`Products`] are others), and denormal results are flushed to zero ([`Finish`]).
 
 mod modify;
 mod scalar;
